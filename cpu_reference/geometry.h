@@ -1,0 +1,186 @@
+/* Rays against spheres and planes without tolerances: a ray knows the surface it leaves and the side it
+ * leaves to; a point knows what it cannot be inside of. */
+#ifndef REFERENCE_GEOMETRY_H
+#define REFERENCE_GEOMETRY_H
+
+#include <stdbool.h>
+
+#include "packed_scene.h"
+#include "real.h"
+
+enum { NO_SURFACE = -1 }; /* surfaces are numbered spheres first, then planes */
+
+struct ray {
+    struct vec3 origin, direction; /* direction of length 1 */
+    int surface;                   /* that the ray leaves, or NO_SURFACE */
+    bool inward;                   /* into the sphere that it leaves */
+};
+
+struct hit {
+    real distance;
+    int surface;
+    bool leaving; /* met from the inside of a sphere or the glass side of a transparent plane */
+    struct vec3 point, normal; /* unit normal, facing the ray */
+    const PackedSurface *material;
+};
+
+/* Where a line passes a sphere: Haines, Guenther and Akenine-Moeller, "Precision Improvements for
+ * Ray/Sphere Intersection", Ray Tracing Gems (2019), chapter 7. */
+struct passage {
+    real along;              /* signed distance to the closest approach */
+    struct vec3 foot;        /* from there to the centre */
+    real half_chord_squared; /* > 0: the line meets the sphere */
+};
+
+static inline struct passage pass_sphere(struct vec3 to_center, struct vec3 direction, real radius)
+{
+    struct passage passage;
+    passage.along = dot(to_center, direction);
+    passage.foot = subtract(to_center, scale(passage.along, direction));
+    passage.half_chord_squared = radius * radius - dot(passage.foot, passage.foot);
+    return passage;
+}
+
+static inline bool lies_inside(struct vec3 to_center, real radius)
+{
+    return dot(to_center, to_center) < radius * radius;
+}
+
+/* Whether the ray meets the sphere with this number; the distance to where it does, and from which side. */
+static inline bool meet_sphere(const struct PackedSphere *sphere, int surface, const struct ray *ray,
+                               real *distance, bool *leaving)
+{
+    real radius = sphere->center_radius.w;
+    struct vec3 to_center = subtract(vector_of(sphere->center_radius), ray->origin);
+    struct passage passage = pass_sphere(to_center, ray->direction, radius);
+    real half_chord = square_root(at_least_zero(passage.half_chord_squared));
+    *leaving = true;
+    if (ray->surface == surface) { /* inward, the way is a whole chord; outward, there is no way back */
+        *distance = 2 * at_least_zero(passage.along);
+        return ray->inward;
+    }
+    if (sphere->surface.tags.z != 0 && lies_inside(to_center, radius)) {
+        *distance = at_least_zero(passage.along + half_chord);
+        return true;
+    }
+    *leaving = false;
+    *distance = passage.along - half_chord;
+    return passage.along > 0 && passage.half_chord_squared > 0;
+}
+
+static inline bool meet_plane(const struct PackedPlane *plane, int surface, const struct ray *ray, real *distance,
+                              bool *leaving)
+{
+    if (ray->surface == surface)
+        return false;
+    struct vec3 normal = vector_of(plane->normal_offset);
+    real slope = dot(normal, ray->direction);
+    real height = dot(normal, ray->origin) - plane->normal_offset.w;
+    if (plane->surface.tags.x == KIND_TRANSPARENT) {
+        *leaving = slope > 0;
+        *distance = height / -slope;
+        return *leaving ? slope > (real)PARALLEL && height < 0 : slope < -(real)PARALLEL && height > 0;
+    }
+    *leaving = false;
+    *distance = at_least_zero(height) / -slope; /* the origin is in front of every opaque plane */
+    return slope < -(real)PARALLEL;
+}
+
+/* Puts the hit's point on its surface, whatever error the distance has, and finds the normal. */
+static inline void locate(const struct packed_scene *scene, const struct ray *ray, struct hit *hit)
+{
+    struct vec3 normal;
+    if (hit->surface < scene->sphere_count) {
+        layout_vec4 shape = scene->spheres[hit->surface].center_radius;
+        struct vec3 center = vector_of(shape);
+        struct passage passage = pass_sphere(subtract(center, ray->origin), ray->direction, shape.w);
+        real half_chord = square_root(at_least_zero(passage.half_chord_squared));
+        if (hit->leaving)
+            half_chord = -half_chord;
+        normal = normalize(negate(add(passage.foot, scale(half_chord, ray->direction))));
+        hit->point = add(center, scale(shape.w, normal));
+    } else {
+        layout_vec4 shape = scene->planes[hit->surface - scene->sphere_count].normal_offset;
+        normal = vector_of(shape);
+        struct vec3 point = add(ray->origin, scale(hit->distance, ray->direction));
+        hit->point = subtract(point, scale(dot(normal, point) - shape.w, normal));
+    }
+    hit->normal = hit->leaving ? negate(normal) : normal;
+}
+
+/* The nearest surface on the ray's way; of surfaces at one distance the first of the scene file. */
+static inline bool find_hit(const struct packed_scene *scene, const struct ray *ray, struct hit *nearest)
+{
+    *nearest = (struct hit){.distance = (real)FARTHEST_HIT, .surface = NO_SURFACE};
+    for (int i = 0; i < scene->sphere_count + scene->plane_count; ++i) {
+        int plane = i - scene->sphere_count;
+        real distance;
+        bool leaving;
+        bool met = plane < 0 ? meet_sphere(&scene->spheres[i], i, ray, &distance, &leaving)
+                             : meet_plane(&scene->planes[plane], i, ray, &distance, &leaving);
+        const PackedSurface *material = plane < 0 ? &scene->spheres[i].surface : &scene->planes[plane].surface;
+        if (met && (distance < nearest->distance ||
+                    (distance == nearest->distance && nearest->surface != NO_SURFACE &&
+                     material->tags.y < nearest->material->tags.y))) {
+            nearest->distance = distance;
+            nearest->surface = i;
+            nearest->leaving = leaving;
+            nearest->material = material;
+        }
+    }
+    if (nearest->surface == NO_SURFACE)
+        return false;
+    locate(scene, ray, nearest);
+    return true;
+}
+
+/* The way from a surface point to a point of a light. */
+struct segment {
+    struct vec3 from, to, direction;
+    real length;
+    int surface; /* that `from` lies on */
+    bool inward; /* on the inner side of that sphere */
+};
+
+static inline bool sphere_blocks(const struct PackedSphere *sphere, int surface, const struct segment *segment)
+{
+    bool own = segment->surface == surface;
+    if (own && !segment->inward)
+        return false;
+    struct vec3 center = vector_of(sphere->center_radius);
+    real radius = sphere->center_radius.w;
+    struct vec3 to_center = subtract(center, segment->from);
+    bool starts_inside = own || (sphere->surface.tags.z != 0 && lies_inside(to_center, radius));
+    bool ends_inside = sphere->surface.tags.w != 0 && lies_inside(subtract(center, segment->to), radius);
+    if (starts_inside || ends_inside)
+        return starts_inside != ends_inside;
+    struct passage passage = pass_sphere(to_center, segment->direction, radius);
+    return passage.along > 0 && passage.half_chord_squared > 0 && passage.along < segment->length;
+}
+
+/* A segment crosses a plane exactly when its ends lie on different sides; `from` is known to lie in front
+ * of every opaque plane. */
+static inline bool plane_blocks(const struct PackedPlane *plane, int surface, const struct segment *segment)
+{
+    if (plane->surface.tags.z == 0)
+        return false;
+    struct vec3 normal = vector_of(plane->normal_offset);
+    bool ends_behind = dot(normal, segment->to) - plane->normal_offset.w < 0;
+    if (plane->surface.tags.x != KIND_TRANSPARENT)
+        return ends_behind;
+    bool starts_behind = dot(normal, segment->from) - plane->normal_offset.w < 0;
+    return segment->surface != surface && starts_behind != ends_behind;
+}
+
+static inline bool is_blocked(const struct packed_scene *scene, const struct segment *segment)
+{
+    for (int i = 0; i < scene->sphere_count; ++i)
+        if (sphere_blocks(&scene->spheres[i], i, segment))
+            return true;
+    for (int i = 0; i < scene->plane_count; ++i)
+        if (plane_blocks(&scene->planes[i], scene->sphere_count + i, segment))
+            return true;
+    return false;
+}
+
+#endif

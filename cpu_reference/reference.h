@@ -1,0 +1,27 @@
+#ifndef VKWHITTED_REFERENCE_H
+#define VKWHITTED_REFERENCE_H
+
+#include <stdint.h>
+
+#include "packed_scene.h"
+
+struct reference_rays {
+    uint64_t primary, secondary, shadow;
+};
+
+/* Part of the picture, in pixels from the top left. */
+struct reference_window {
+    int x, y, width, height;
+};
+
+/* Traces the window of the scene's picture in float, double or binary128, on so many threads, and writes linear
+ * RGB radiance, rounded to double, row by row from the top: 3 * width * height values. Adds the rays it traced to
+ * *rays. The float build computes what the shader does in exact mode, operation by operation. */
+void reference_render_float(const struct packed_scene *scene, struct reference_window window, int threads,
+                            double *rgb, struct reference_rays *rays);
+void reference_render_double(const struct packed_scene *scene, struct reference_window window, int threads,
+                             double *rgb, struct reference_rays *rays);
+void reference_render_quad(const struct packed_scene *scene, struct reference_window window, int threads,
+                           double *rgb, struct reference_rays *rays);
+
+#endif

@@ -1,0 +1,63 @@
+/* The first two dimensions of Sobol's sequence, shuffled and Owen-scrambled (Burley, "Practical Hash-based
+ * Owen Scrambling", JCGT 9(4), 2020). All in integers, so that every precision draws the same points. */
+#ifndef REFERENCE_SOBOL_H
+#define REFERENCE_SOBOL_H
+
+#include <stdint.h>
+
+#include "real.h"
+
+/* C. Wellons, "Prospecting for hash functions": lowbias32. */
+static inline uint32_t hash32(uint32_t x)
+{
+    x ^= x >> 16;
+    x *= UINT32_C(0x7feb352d);
+    x ^= x >> 15;
+    x *= UINT32_C(0x846ca68b);
+    x ^= x >> 16;
+    return x;
+}
+
+static inline uint32_t reverse_bits(uint32_t x)
+{
+    uint32_t reversed = 0;
+    for (int bit = 0; bit < 32; ++bit)
+        reversed |= (x >> bit & 1) << (31 - bit);
+    return reversed;
+}
+
+/* Nested uniform (Owen) scrambling; the hash works on reversed bits (N. Vegdahl, "Building a Better LK
+ * Hash", 2021). */
+static inline uint32_t owen_scramble(uint32_t x, uint32_t seed)
+{
+    x = reverse_bits(x);
+    x ^= x * UINT32_C(0x3d20adea);
+    x += seed;
+    x *= (seed >> 16) | 1;
+    x ^= x * UINT32_C(0x05526c56);
+    x ^= x * UINT32_C(0x53a22864);
+    return reverse_bits(x);
+}
+
+/* Dimension 2 of the sequence by its direction numbers v_0 = 2^31, v_(k+1) = v_k xor v_k / 2. */
+static inline uint32_t sobol_second(uint32_t index)
+{
+    uint32_t point = 0;
+    for (uint32_t direction = UINT32_C(1) << 31; index != 0; index >>= 1, direction ^= direction >> 1)
+        if (index & 1)
+            point ^= direction;
+    return point;
+}
+
+/* Point `index` of the sequence that belongs to seed, u and v in [0, 1), multiples of 2^-24. */
+static inline void sobol_point(uint32_t seed, uint32_t index, real *u, real *v)
+{
+    uint32_t shuffle = hash32(seed);
+    uint32_t shuffled = owen_scramble(index, shuffle);
+    uint32_t first = owen_scramble(reverse_bits(shuffled), hash32(shuffle + 1));
+    uint32_t second = owen_scramble(sobol_second(shuffled), hash32(shuffle + 2));
+    *u = (real)(first >> 8) * (real)0x1p-24;
+    *v = (real)(second >> 8) * (real)0x1p-24;
+}
+
+#endif

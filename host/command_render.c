@@ -1,0 +1,108 @@
+#include "command_render.h"
+
+#include <stdio.h>
+
+#include "job.h"
+#include "json_file.h"
+#include "output_file.h"
+
+static enum status check_outputs(const struct options *options)
+{
+    enum status status = STATUS_DONE;
+    for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
+        status = image_write_check(options->outputs[i]);
+    if (status == STATUS_DONE && options->stats)
+        status = output_file_check(options->stats);
+    return status;
+}
+
+static enum status write_outputs(const struct options *options, const struct job *job, const struct rendering *rendering,
+                                 const char *device)
+{
+    const struct image_metadata metadata = {
+        .transfer = options->transfer,
+        .scene = options->scenes[0],
+        .device = device,
+        .precision = precision_name(options->precision),
+        .max_bounces = job->max_bounces,
+    };
+    enum status status = STATUS_DONE;
+    for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
+        status = interrupt_requested() ? STATUS_INTERRUPTED
+                                       : image_write(&rendering->image, options->outputs[i], &metadata);
+    return status;
+}
+
+static enum status write_stats(const struct options *options, const struct job *job, const struct rendering *rendering,
+                               const char *device, const char *driver, double write_ms)
+{
+    const struct reference_rays *rays = &rendering->rays;
+    double total = (double)(rays->primary + rays->secondary + rays->shadow);
+    json_t *stats = json_pack(
+        "{s:s, s:s, s:s, s:i, s:i, s:s, s:s, s:i, s:i, s:i, s:f, s:f, s:f, s:f, s:{s:I, s:I, s:I}, s:f}",
+        "scene", options->scenes[0], "device", device, "driver", driver, "width", (int)job->plan.window.width,
+        "height", (int)job->plan.window.height, "precision", precision_name(options->precision), "mode",
+        options->fast ? "fast" : "exact", "max_bounces", (int)job->max_bounces, "samples", job->packed.samples,
+        "light_samples", job->packed.light_samples, "setup_ms", rendering->setup_ms, "first_dispatch_ms",
+        rendering->first_dispatch_ms, "dispatch_ms", rendering->dispatch_ms, "write_ms", write_ms, "rays", "primary",
+        (json_int_t)rays->primary, "secondary", (json_int_t)rays->secondary, "shadow", (json_int_t)rays->shadow,
+        "rays_per_second", rendering->dispatch_ms > 0 ? total / rendering->dispatch_ms * 1000 : 0);
+    return json_write(stats, options->stats);
+}
+
+static enum status deliver(const struct options *options, const struct job *job, struct rendering *rendering,
+                           const char *device, const char *driver)
+{
+    double start = clock_ms();
+    enum status status = write_outputs(options, job, rendering, device);
+    double write_ms = clock_ms() - start;
+    if (status == STATUS_DONE && options->stats)
+        status = write_stats(options, job, rendering, device, driver, write_ms);
+    if (status == STATUS_DONE)
+        log_notice("%s: %ux%u in %.1f ms on %s (set-up %.1f ms, writing %.1f ms)", options->scenes[0],
+                   rendering->image.width, rendering->image.height, rendering->dispatch_ms, device,
+                   rendering->setup_ms, write_ms);
+    image_destroy(&rendering->image);
+    return status;
+}
+
+static enum status render_vulkan(const struct options *options, const struct job *job)
+{
+    struct vulkan_context *context;
+    struct rendering rendering;
+    double start = clock_ms();
+    enum status status = vulkan_context_create(&options->vulkan, &context);
+    if (status != STATUS_DONE)
+        return status;
+    double context_ms = clock_ms() - start;
+    status = render_on_device(context, &job->plan, &rendering);
+    if (status == STATUS_DONE) {
+        char driver[sizeof context->driver.driverName + sizeof context->driver.driverInfo + 1];
+        rendering.setup_ms += context_ms;
+        snprintf(driver, sizeof driver, "%s %s", context->driver.driverName, context->driver.driverInfo);
+        status = deliver(options, job, &rendering, context->properties.deviceName, driver);
+    }
+    enum status closed = vulkan_context_destroy(&context);
+    return status == STATUS_DONE ? closed : status;
+}
+
+enum status command_render(const struct options *options)
+{
+    enum status status = check_outputs(options);
+    if (status != STATUS_DONE)
+        return status;
+    struct job job;
+    status = job_create(options, options->scenes[0], &job);
+    if (status != STATUS_DONE)
+        return status;
+    if (options->backend == BACKEND_VULKAN) {
+        status = render_vulkan(options, &job);
+    } else {
+        struct rendering rendering;
+        status = render_on_cpu(&job.plan, &rendering);
+        if (status == STATUS_DONE)
+            status = deliver(options, &job, &rendering, "cpu", "plain-C reference");
+    }
+    job_destroy(&job);
+    return status;
+}

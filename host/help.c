@@ -1,0 +1,61 @@
+#include "help.h"
+
+#include "version.h"
+
+static const char help_text[] =
+    "usage: vkwhitted render SCENE [-o FILE]...  render a picture: .png, .exr or .pfm\n"
+    "       vkwhitted check SCENE...             compare device and reference, pixel by pixel\n"
+    "       vkwhitted devices                    list the Vulkan devices\n"
+    "\n"
+    "picture (render, check):\n"
+    "  --size WxH               pixels, instead of the scene's\n"
+    "  --crop X,Y,W,H           only this part, in pixels from the top left\n"
+    "  --max-bounces N          0 to 1000, instead of the scene's\n"
+    "  --samples N              samples a pixel, 1 to 65536 (default 1: the pixel's centre)\n"
+    "  --light-samples N        samples a quad light, 1 to 65536, instead of the scene's\n"
+    "\n"
+    "where (all commands):\n"
+    "  --device N|NAME          the device with this number, or with this in its name\n"
+    "  --validate               with the Khronos validation layer; any message is an error\n"
+    "  --threads N              of the CPU reference (default: all processors)\n"
+    "\n"
+    "render:\n"
+    "  -o FILE                  write the picture; repeat for several files\n"
+    "  --backend vulkan|cpu     cpu: with the plain-C reference\n"
+    "  --precision float|double|quad   of the reference; the device computes in float\n"
+    "  --fast                   contraction and built-in functions allowed on the device\n"
+    "  --transfer srgb|linear   of 8-bit files (default srgb)\n"
+    "  --stats FILE             times, rays and device as JSON\n"
+    "  --repeat N               render N more times, for the median of the warm times\n"
+    "\n"
+    "check:\n"
+    "  --tolerance ABS[,REL]    values may differ by ABS + REL * value (default: not in a bit)\n"
+    "  --allow N                so many pixels may differ\n"
+    "  --heatmap FILE.png       where they differ, as a picture\n"
+    "  --json FILE              the result for machines\n"
+    "\n"
+    "  -q, -v                   quiet, verbose\n"
+    "  -h, --help  --version\n"
+    "\n"
+    "exit status: 0 done, 1 a check found a difference, 2 bad usage or input,\n"
+    "3 the machine could not do it\n";
+
+static enum status finish(FILE *stream)
+{
+    if (fflush(stream) == 0)
+        return STATUS_DONE;
+    log_error("cannot write to standard output");
+    return STATUS_UNABLE;
+}
+
+enum status help_print(FILE *stream)
+{
+    fputs(help_text, stream);
+    return finish(stream);
+}
+
+enum status help_print_version(void)
+{
+    puts("vkwhitted " VKWHITTED_VERSION);
+    return finish(stdout);
+}

@@ -1,0 +1,18 @@
+#ifndef VKWHITTED_IMAGE_H
+#define VKWHITTED_IMAGE_H
+
+#include <stddef.h>
+
+#include "status.h"
+
+/* Linear RGB radiance, row 0 on top, pixel (x, y) channel c at rgb[(y * width + x) * 3 + c]. */
+struct image {
+    unsigned width, height;
+    float *rgb;
+};
+
+/* A black image; STATUS_UNABLE (reported) if the machine's memory cannot hold it. */
+enum status image_create(unsigned width, unsigned height, struct image *image);
+void image_destroy(struct image *image);
+
+#endif

@@ -1,0 +1,51 @@
+#include "job.h"
+
+static enum status choose_window(const struct options *options, const struct picture_settings *settings,
+                                 struct window *window)
+{
+    *window = (struct window){0, 0, settings->width, settings->height};
+    if (!options->has_crop)
+        return STATUS_DONE;
+    *window = options->crop;
+    if (window->x + window->width <= settings->width && window->y + window->height <= settings->height)
+        return STATUS_DONE;
+    log_error("--crop %u,%u,%u,%u: expected a part of the picture of %ux%u", window->x, window->y, window->width,
+              window->height, settings->width, settings->height);
+    return STATUS_REFUSED;
+}
+
+enum status job_create(const struct options *options, const char *scene_path, struct job *job)
+{
+    *job = (struct job){0};
+    struct scene scene;
+    enum status status = scene_read(scene_path, &scene);
+    if (status != STATUS_DONE)
+        return status;
+    const struct picture_settings settings = {
+        .width = options->width ? options->width : scene.width,
+        .height = options->height ? options->height : scene.height,
+        .max_bounces = options->max_bounces >= 0 ? (unsigned)options->max_bounces : scene.max_bounces,
+        .samples = options->samples,
+        .light_samples = options->light_samples ? options->light_samples : scene.light_samples,
+    };
+    job->max_bounces = settings.max_bounces;
+    job->plan = (struct render_plan){
+        .scene = &job->packed,
+        .precision = options->precision,
+        .threads = options->threads,
+        .fast = options->fast,
+        .repeat = options->repeat,
+        .count_rays = options->stats != NULL,
+        .quiet = options->quiet,
+    };
+    status = choose_window(options, &settings, &job->plan.window);
+    if (status == STATUS_DONE)
+        status = pack_scene(&scene, &settings, &job->packed);
+    scene_destroy(&scene);
+    return status;
+}
+
+void job_destroy(struct job *job)
+{
+    pack_destroy(&job->packed);
+}

@@ -1,0 +1,73 @@
+#include "number.h"
+
+#include <locale.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static size_t skip_digits(const char *text, size_t length, size_t at)
+{
+    while (at < length && text[at] >= '0' && text[at] <= '9')
+        at++;
+    return at;
+}
+
+static size_t skip_sign(const char *text, size_t length, size_t at)
+{
+    return at < length && (text[at] == '+' || text[at] == '-') ? at + 1 : at;
+}
+
+static bool is_decimal(const char *text, size_t length)
+{
+    size_t start = skip_sign(text, length, 0);
+    size_t at = skip_digits(text, length, start);
+    if (at == start)
+        return false;
+    if (at < length && text[at] == '.') {
+        start = at + 1;
+        at = skip_digits(text, length, start);
+        if (at == start)
+            return false;
+    }
+    if (at < length && (text[at] == 'e' || text[at] == 'E')) {
+        start = skip_sign(text, length, at + 1);
+        at = skip_digits(text, length, start);
+        if (at == start)
+            return false;
+    }
+    return at == length;
+}
+
+bool parse_double(const char *text, size_t length, double *value)
+{
+    char copy[NUMBER_MAX_LENGTH + 1];
+    if (length > NUMBER_MAX_LENGTH || !is_decimal(text, length))
+        return false;
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+
+    locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    if (!c_locale)
+        return false;
+    double parsed = strtod_l(copy, NULL, c_locale);
+    freelocale(c_locale);
+    if (!isfinite(parsed))
+        return false;
+    *value = parsed;
+    return true;
+}
+
+bool parse_unsigned(const char *text, size_t length, unsigned long max, unsigned long *value)
+{
+    if (length == 0 || length > NUMBER_MAX_LENGTH || skip_digits(text, length, 0) != length)
+        return false;
+    unsigned long parsed = 0;
+    for (size_t i = 0; i < length; i++) {
+        unsigned long digit = (unsigned long)(text[i] - '0');
+        if (digit > max || parsed > (max - digit) / 10)
+            return false;
+        parsed = parsed * 10 + digit;
+    }
+    *value = parsed;
+    return true;
+}

@@ -1,0 +1,19 @@
+#ifndef VKWHITTED_NUMBER_H
+#define VKWHITTED_NUMBER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Strict decimal numbers, the same in every locale. The whole text must be the number: no blanks, no
+ * hexadecimal, no "inf" or "nan". On failure these return false and leave *value alone. */
+
+enum { NUMBER_MAX_LENGTH = 500 }; /* characters; longer texts are not numbers */
+
+/* [+-]digits[.digits][e[+-]digits], also with E. False too where the number overflows; one too small for a
+ * double becomes the nearest double, perhaps 0. */
+bool parse_double(const char *text, size_t length, double *value);
+
+/* Digits only, at most max. */
+bool parse_unsigned(const char *text, size_t length, unsigned long max, unsigned long *value);
+
+#endif

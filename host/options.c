@@ -1,0 +1,346 @@
+#include "options.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "help.h"
+#include "number.h"
+
+enum {
+    RENDER = 1 << COMMAND_RENDER,
+    CHECK = 1 << COMMAND_CHECK,
+    DEVICES = 1 << COMMAND_DEVICES,
+};
+
+enum option_id {
+    OPTION_DEVICE = 256,
+    OPTION_BACKEND,
+    OPTION_PRECISION,
+    OPTION_FAST,
+    OPTION_SIZE,
+    OPTION_MAX_BOUNCES,
+    OPTION_SAMPLES,
+    OPTION_LIGHT_SAMPLES,
+    OPTION_CROP,
+    OPTION_THREADS,
+    OPTION_TRANSFER,
+    OPTION_VALIDATE,
+    OPTION_STATS,
+    OPTION_REPEAT,
+    OPTION_TOLERANCE,
+    OPTION_ALLOW,
+    OPTION_HEATMAP,
+    OPTION_JSON,
+    OPTION_HELP,
+    OPTION_VERSION,
+};
+
+static const struct option long_options[] = {
+    {"device", required_argument, NULL, OPTION_DEVICE},
+    {"backend", required_argument, NULL, OPTION_BACKEND},
+    {"precision", required_argument, NULL, OPTION_PRECISION},
+    {"fast", no_argument, NULL, OPTION_FAST},
+    {"size", required_argument, NULL, OPTION_SIZE},
+    {"max-bounces", required_argument, NULL, OPTION_MAX_BOUNCES},
+    {"samples", required_argument, NULL, OPTION_SAMPLES},
+    {"light-samples", required_argument, NULL, OPTION_LIGHT_SAMPLES},
+    {"crop", required_argument, NULL, OPTION_CROP},
+    {"threads", required_argument, NULL, OPTION_THREADS},
+    {"transfer", required_argument, NULL, OPTION_TRANSFER},
+    {"validate", no_argument, NULL, OPTION_VALIDATE},
+    {"stats", required_argument, NULL, OPTION_STATS},
+    {"repeat", required_argument, NULL, OPTION_REPEAT},
+    {"tolerance", required_argument, NULL, OPTION_TOLERANCE},
+    {"allow", required_argument, NULL, OPTION_ALLOW},
+    {"heatmap", required_argument, NULL, OPTION_HEATMAP},
+    {"json", required_argument, NULL, OPTION_JSON},
+    {"help", no_argument, NULL, OPTION_HELP},
+    {"version", no_argument, NULL, OPTION_VERSION},
+    {0},
+};
+
+/* Which commands take an option, as a set of bits. */
+static int takers(int id)
+{
+    switch (id) {
+    case 'o':
+    case OPTION_BACKEND:
+    case OPTION_PRECISION:
+    case OPTION_FAST:
+    case OPTION_TRANSFER:
+    case OPTION_STATS:
+    case OPTION_REPEAT:
+        return RENDER;
+    case OPTION_TOLERANCE:
+    case OPTION_ALLOW:
+    case OPTION_HEATMAP:
+    case OPTION_JSON:
+        return CHECK;
+    case OPTION_DEVICE:
+    case OPTION_VALIDATE:
+    case 'q':
+    case 'v':
+    case 'h':
+    case OPTION_HELP:
+    case OPTION_VERSION:
+        return RENDER | CHECK | DEVICES;
+    default:
+        return RENDER | CHECK;
+    }
+}
+
+static const char *option_name(int id)
+{
+    for (const struct option *option = long_options; option->name; ++option)
+        if (option->val == id)
+            return option->name;
+    return "";
+}
+
+/* Splits text at the separator into exactly `count` unsigned numbers up to most. */
+static bool parse_list(const char *text, char separator, size_t count, unsigned long most, unsigned *values)
+{
+    for (size_t i = 0; i < count; ++i) {
+        const char *end = i + 1 < count ? strchr(text, separator) : text + strlen(text);
+        unsigned long value;
+        if (!end || !parse_unsigned(text, (size_t)(end - text), most, &value))
+            return false;
+        values[i] = (unsigned)value;
+        text = end + 1;
+    }
+    return true;
+}
+
+static enum status refuse(int id, const char *argument, const char *expected)
+{
+    log_error("--%s %s: expected %s", option_name(id), argument, expected);
+    return STATUS_REFUSED;
+}
+
+static enum status read_number(int id, const char *argument, unsigned least, unsigned most, unsigned *value)
+{
+    if (parse_list(argument, 0, 1, most, value) && *value >= least)
+        return STATUS_DONE;
+    log_error("--%s %s: expected a whole number from %u to %u", option_name(id), argument, least, most);
+    return STATUS_REFUSED;
+}
+
+/* The index of the argument among `names`. */
+static enum status read_choice(int id, const char *argument, const char *const *names, size_t count, unsigned *choice)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (strcmp(argument, names[i]) == 0) {
+            *choice = (unsigned)i;
+            return STATUS_DONE;
+        }
+    fprintf(stderr, "vkwhitted: error: --%s %s: expected", option_name(id), argument);
+    for (size_t i = 0; i < count; ++i)
+        fprintf(stderr, "%s %s", i == 0 ? "" : " or", names[i]);
+    fputc('\n', stderr);
+    return STATUS_REFUSED;
+}
+
+static enum status read_size(int id, const char *argument, struct options *options)
+{
+    unsigned size[2];
+    if (!parse_list(argument, 'x', 2, SCENE_MAX_SIZE, size) || size[0] == 0 || size[1] == 0)
+        return refuse(id, argument, "WIDTHxHEIGHT, each from 1 to 65536");
+    options->width = size[0];
+    options->height = size[1];
+    return STATUS_DONE;
+}
+
+static enum status read_crop(int id, const char *argument, struct options *options)
+{
+    unsigned crop[4];
+    if (!parse_list(argument, ',', 4, SCENE_MAX_SIZE, crop) || crop[2] == 0 || crop[3] == 0)
+        return refuse(id, argument, "X,Y,WIDTH,HEIGHT in pixels from the top left, width and height at least 1");
+    options->has_crop = true;
+    options->crop = (struct window){crop[0], crop[1], crop[2], crop[3]};
+    return STATUS_DONE;
+}
+
+static enum status read_tolerance(int id, const char *argument, struct options *options)
+{
+    const char *comma = strchr(argument, ',');
+    size_t length = comma ? (size_t)(comma - argument) : strlen(argument);
+    struct tolerance tolerance = {0, 0};
+    if (!parse_double(argument, length, &tolerance.absolute) || tolerance.absolute < 0 ||
+        (comma && (!parse_double(comma + 1, strlen(comma + 1), &tolerance.relative) || tolerance.relative < 0)))
+        return refuse(id, argument, "ABSOLUTE or ABSOLUTE,RELATIVE, not negative");
+    options->has_tolerance = true;
+    options->tolerance = tolerance;
+    return STATUS_DONE;
+}
+
+static enum status read_count(int id, const char *argument, unsigned long *count)
+{
+    if (parse_unsigned(argument, strlen(argument), (unsigned long)SCENE_MAX_SIZE * SCENE_MAX_SIZE, count))
+        return STATUS_DONE;
+    return refuse(id, argument, "a number of pixels");
+}
+
+static enum status read_bounces(int id, const char *argument, int *max_bounces)
+{
+    unsigned value = 0;
+    enum status status = read_number(id, argument, 0, SCENE_MAX_BOUNCES, &value);
+    *max_bounces = (int)value;
+    return status;
+}
+
+static enum status read_option(int id, const char *argument, struct options *options)
+{
+    static const char *const backends[] = {"vulkan", "cpu"};
+    static const char *const precisions[] = {"float", "double", "quad"};
+    static const char *const transfers[] = {"srgb", "linear"};
+    unsigned choice = 0;
+    enum status status = STATUS_DONE;
+    switch (id) {
+    case 'o':
+        options->outputs[options->output_count++] = argument;
+        break;
+    case OPTION_DEVICE:
+        options->vulkan.device = argument;
+        break;
+    case OPTION_BACKEND:
+        status = read_choice(id, argument, backends, 2, &choice);
+        options->backend = (enum backend)choice;
+        break;
+    case OPTION_PRECISION:
+        status = read_choice(id, argument, precisions, 3, &choice);
+        options->precision = (enum precision)choice;
+        break;
+    case OPTION_TRANSFER:
+        status = read_choice(id, argument, transfers, 2, &choice);
+        options->transfer = (enum transfer)choice;
+        break;
+    case OPTION_FAST:
+        options->fast = true;
+        break;
+    case OPTION_SIZE:
+        return read_size(id, argument, options);
+    case OPTION_CROP:
+        return read_crop(id, argument, options);
+    case OPTION_MAX_BOUNCES:
+        return read_bounces(id, argument, &options->max_bounces);
+    case OPTION_SAMPLES:
+        return read_number(id, argument, 1, SCENE_MAX_SAMPLES, &options->samples);
+    case OPTION_LIGHT_SAMPLES:
+        return read_number(id, argument, 1, SCENE_MAX_SAMPLES, &options->light_samples);
+    case OPTION_THREADS:
+        return read_number(id, argument, 1, 1024, &options->threads);
+    case OPTION_REPEAT:
+        return read_number(id, argument, 1, 100000, &options->repeat);
+    case OPTION_TOLERANCE:
+        return read_tolerance(id, argument, options);
+    case OPTION_ALLOW:
+        return read_count(id, argument, &options->allow);
+    case OPTION_VALIDATE:
+        options->vulkan.validate = true;
+        break;
+    case OPTION_STATS:
+        options->stats = argument;
+        break;
+    case OPTION_HEATMAP:
+        options->heatmap = argument;
+        break;
+    case OPTION_JSON:
+        options->json = argument;
+        break;
+    case 'q':
+        options->quiet = true;
+        log_set_verbosity(-1);
+        break;
+    case 'v':
+        log_set_verbosity(1);
+        break;
+    }
+    return status;
+}
+
+static enum status check_consistency(const struct options *options)
+{
+    const char *problem = NULL;
+    if (options->command == COMMAND_DEVICES)
+        problem = options->scene_count ? "devices takes no scene" : NULL;
+    else if (options->scene_count == 0)
+        problem = "expected a scene file";
+    else if (options->command == COMMAND_RENDER && options->scene_count > 1)
+        problem = "render takes one scene file";
+    else if (options->backend == BACKEND_VULKAN && options->precision != PRECISION_FLOAT)
+        problem = "--precision double and quad need --backend cpu";
+    else if (options->backend == BACKEND_CPU && options->fast)
+        problem = "--fast is a device's pipeline; it does not go with --backend cpu";
+    else if (options->backend == BACKEND_CPU && (options->vulkan.device || options->vulkan.validate))
+        problem = "--device and --validate do not go with --backend cpu";
+    else if (options->heatmap && options->scene_count > 1)
+        problem = "--heatmap takes one scene file";
+    else if (options->heatmap && image_format_of(options->heatmap) != IMAGE_FORMAT_PNG)
+        problem = "--heatmap writes a .png";
+    if (!problem)
+        return STATUS_DONE;
+    log_error("%s; see 'vkwhitted --help'", problem);
+    return STATUS_REFUSED;
+}
+
+static enum status read_command(const char *name, enum command *command)
+{
+    static const char *const names[COMMAND_COUNT] = {"render", "check", "devices"};
+    for (int i = 0; i < COMMAND_COUNT; ++i)
+        if (strcmp(name, names[i]) == 0) {
+            *command = (enum command)i;
+            return STATUS_DONE;
+        }
+    log_error("%s: expected a command: render, check or devices; see 'vkwhitted --help'", name);
+    return STATUS_REFUSED;
+}
+
+enum status options_read(int argc, char **argv, struct options *options, bool *finished)
+{
+    *finished = false;
+    *options = (struct options){.max_bounces = -1, .samples = 1};
+    options->outputs = calloc((size_t)argc, sizeof *options->outputs);
+    if (!options->outputs) {
+        log_error("no memory for the command line");
+        return STATUS_UNABLE;
+    }
+    if (argc < 2) {
+        help_print(stderr);
+        return STATUS_REFUSED;
+    }
+    *finished = strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0;
+    if (*finished)
+        return help_print(stdout);
+    *finished = strcmp(argv[1], "--version") == 0;
+    if (*finished)
+        return help_print_version();
+    enum status status = read_command(argv[1], &options->command);
+    while (status == STATUS_DONE) {
+        int id = getopt_long(argc - 1, argv + 1, "o:qvh", long_options, NULL);
+        if (id == -1)
+            break;
+        if (id == '?')
+            return STATUS_REFUSED; /* reported by getopt_long */
+        if (!(takers(id) >> options->command & 1)) {
+            log_error("%s takes no option %s%s", argv[1], id == 'o' ? "-o" : "--", option_name(id));
+            return STATUS_REFUSED;
+        }
+        *finished = id == OPTION_HELP || id == 'h' || id == OPTION_VERSION;
+        if (*finished)
+            return id == OPTION_VERSION ? help_print_version() : help_print(stdout);
+        status = read_option(id, optarg, options);
+    }
+    options->scenes = argv + 1 + optind;
+    options->scene_count = (size_t)(argc - 1 - optind);
+    return status == STATUS_DONE ? check_consistency(options) : status;
+}
+
+void options_destroy(struct options *options)
+{
+    free(options->outputs);
+    *options = (struct options){0};
+}

@@ -1,0 +1,46 @@
+#ifndef VKWHITTED_OPTIONS_H
+#define VKWHITTED_OPTIONS_H
+
+#include <stddef.h>
+
+#include "compare.h"
+#include "image_file.h"
+#include "pack.h"
+#include "render.h"
+#include "vulkan_context.h"
+
+enum command { COMMAND_RENDER, COMMAND_CHECK, COMMAND_DEVICES, COMMAND_COUNT };
+
+/* The command line, checked. Strings point into argv. */
+struct options {
+    enum command command;
+    char **scenes; /* paths */
+    size_t scene_count;
+    const char **outputs; /* -o */
+    size_t output_count;
+    struct vulkan_options vulkan;
+    enum backend backend;
+    enum precision precision;
+    bool fast;
+    unsigned width, height; /* 0: the scene's */
+    int max_bounces;        /* -1: the scene's */
+    unsigned samples;       /* a pixel */
+    unsigned light_samples; /* 0: the scene's */
+    bool has_crop;
+    struct window crop;
+    unsigned threads; /* 0: all */
+    unsigned repeat;  /* warm renderings after the first */
+    enum transfer transfer;
+    bool has_tolerance;
+    struct tolerance tolerance;
+    unsigned long allow; /* pixels that may differ */
+    const char *stats, *json, *heatmap;
+    bool quiet;
+};
+
+/* Reads the command line; owns options->outputs, freed with options_destroy(). STATUS_REFUSED (reported) if it is
+ * wrong. *finished is set where --help or --version has been answered and nothing is left to do. */
+enum status options_read(int argc, char **argv, struct options *options, bool *finished);
+void options_destroy(struct options *options);
+
+#endif

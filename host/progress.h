@@ -1,0 +1,32 @@
+#ifndef VKWHITTED_PROGRESS_H
+#define VKWHITTED_PROGRESS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* A bar on standard error, if that is a terminal and the work takes more than half a second. */
+struct progress {
+    const char *label;
+    uint64_t done, total;
+    double start_ms;
+    bool visible, enabled;
+};
+
+/* label must outlive the progress. Quiet (-q) shows nothing. */
+void progress_start(struct progress *progress, const char *label, uint64_t total, bool quiet);
+void progress_advance(struct progress *progress, uint64_t amount);
+
+/* Wipes the bar, done or not. */
+void progress_end(struct progress *progress);
+
+/* Ctrl-C and SIGTERM from now on only set a flag, which long work asks for. */
+void interrupt_catch(void);
+bool interrupt_requested(void);
+
+/* Ends the process as the caught signal would have. */
+_Noreturn void interrupt_die(void);
+
+/* Monotonic milliseconds. */
+double clock_ms(void);
+
+#endif

@@ -1,0 +1,40 @@
+#ifndef VKWHITTED_RENDER_H
+#define VKWHITTED_RENDER_H
+
+#include "image.h"
+#include "packed_scene.h"
+#include "reference.h"
+#include "tracer.h"
+
+enum backend { BACKEND_VULKAN, BACKEND_CPU };
+enum precision { PRECISION_FLOAT, PRECISION_DOUBLE, PRECISION_QUAD };
+
+const char *precision_name(enum precision precision);
+
+/* What to render and how. */
+struct render_plan {
+    const struct packed_scene *scene;
+    struct window window;
+    enum precision precision; /* on the CPU */
+    unsigned threads;         /* of the CPU; 0: one a processor */
+    bool fast;                /* on a device */
+    unsigned repeat;          /* warm renderings after the first */
+    bool count_rays;
+    bool quiet;
+};
+
+struct rendering {
+    struct image image; /* the window */
+    double setup_ms;    /* pipeline and upload; 0 on the CPU */
+    double first_dispatch_ms;
+    double dispatch_ms; /* median of the warm renderings, or the first if there are none */
+    struct reference_rays rays; /* all 0 unless counted */
+};
+
+/* On STATUS_DONE the caller frees rendering->image; otherwise there is none and the reason is reported, except for
+ * STATUS_INTERRUPTED. */
+enum status render_on_device(struct vulkan_context *context, const struct render_plan *plan,
+                             struct rendering *rendering);
+enum status render_on_cpu(const struct render_plan *plan, struct rendering *rendering);
+
+#endif

@@ -1,0 +1,466 @@
+#include "tracer.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "vulkan_buffer.h"
+#include "whitted_spirv.h"
+
+enum { VIEW, SPHERES, PLANES, POINT_LIGHTS, QUAD_LIGHTS, SCENE_BINDINGS, PICTURE = SCENE_BINDINGS, BINDINGS };
+
+enum { CHANNELS = 3 };
+
+struct tracer {
+    struct vulkan_context *context;
+    bool scene_in_storage;
+    unsigned group_width, group_height, tile_pixels;
+    struct vulkan_buffer scene, picture;
+    struct vulkan_buffer staging; /* only where the host cannot read `picture` well */
+    VkDescriptorBufferInfo bindings[BINDINGS];
+    VkDescriptorSetLayout set_layout;
+    VkPipelineLayout pipeline_layout;
+    VkPipeline pipeline;
+    VkDescriptorPool descriptor_pool;
+    VkDescriptorSet set;
+    VkCommandPool command_pool;
+    VkCommandBuffer commands;
+    VkQueryPool timestamps;
+    VkFence fence;
+    unsigned picture_width, picture_height;
+};
+
+/* As in whitted.comp. */
+struct push_constants {
+    uint32_t tile_x, tile_y, tile_width, tile_height, picture_width, picture_height;
+};
+
+/* The values of the shader's constants 0, 1, 2...; see shaders/scene.glsl. */
+struct specialization {
+    uint32_t group_width, group_height;
+    int32_t spheres, planes, point_lights, quad_lights, max_bounces, samples, light_samples;
+    VkBool32 mirrors, glass, glass_planes, rough, spheres_hold_rays, spheres_hold_lights, planes_shadow, mixed_order,
+        count_rays;
+};
+
+static void note_surface(struct specialization *constants, const PackedSurface *surface)
+{
+    constants->mirrors |= surface->tags.x == KIND_MIRROR;
+    constants->glass |= surface->tags.x == KIND_TRANSPARENT;
+    constants->rough |= surface->tags.x == KIND_MATTE && surface->oren_nayar_b.x != 0;
+}
+
+static struct specialization specialize(const struct tracer *tracer, const struct packed_scene *scene,
+                                        bool count_rays)
+{
+    struct specialization constants = {
+        .group_width = tracer->group_width,
+        .group_height = tracer->group_height,
+        .spheres = scene->sphere_count,
+        .planes = scene->plane_count,
+        .point_lights = scene->point_light_count,
+        .quad_lights = scene->quad_light_count,
+        .max_bounces = scene->max_bounces,
+        .samples = scene->samples,
+        .light_samples = scene->light_samples,
+        .count_rays = count_rays,
+    };
+    int last_sphere_rank = -1;
+    for (int i = 0; i < scene->sphere_count; ++i) {
+        const PackedSurface *surface = &scene->spheres[i].surface;
+        note_surface(&constants, surface);
+        constants.spheres_hold_rays |= surface->tags.z != 0;
+        constants.spheres_hold_lights |= surface->tags.w != 0;
+        last_sphere_rank = surface->tags.y;
+    }
+    for (int i = 0; i < scene->plane_count; ++i) {
+        const PackedSurface *surface = &scene->planes[i].surface;
+        note_surface(&constants, surface);
+        constants.glass_planes |= surface->tags.x == KIND_TRANSPARENT;
+        constants.planes_shadow |= surface->tags.z != 0;
+        constants.mixed_order |= surface->tags.y < last_sphere_rank;
+    }
+    return constants;
+}
+
+/* Lays the scene's parts out in one buffer; a part has room for at least one element. */
+static enum status upload_scene(struct tracer *tracer, const struct packed_scene *scene)
+{
+    const struct {
+        const void *data;
+        size_t element_size, count;
+    } parts[SCENE_BINDINGS] = {
+        [VIEW] = {&scene->view, sizeof scene->view, 1},
+        [SPHERES] = {scene->spheres, sizeof *scene->spheres, (size_t)scene->sphere_count},
+        [PLANES] = {scene->planes, sizeof *scene->planes, (size_t)scene->plane_count},
+        [POINT_LIGHTS] = {scene->point_lights, sizeof *scene->point_lights, (size_t)scene->point_light_count},
+        [QUAD_LIGHTS] = {scene->quad_lights, sizeof *scene->quad_lights, (size_t)scene->quad_light_count},
+    };
+    static const VkDeviceSize alignment = 256; /* the largest offset alignment that Vulkan allows a device */
+    VkDeviceSize size = 0;
+    for (int i = 0; i < SCENE_BINDINGS; ++i) {
+        VkDeviceSize range = parts[i].element_size * (parts[i].count + (i == VIEW ? 0 : 1));
+        tracer->bindings[i] = (VkDescriptorBufferInfo){.offset = size, .range = range};
+        size += (range + alignment - 1) / alignment * alignment;
+        if (range > tracer->context->properties.limits.maxUniformBufferRange)
+            tracer->scene_in_storage = true;
+    }
+    enum status status = vulkan_buffer_create(
+        tracer->context, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+        (VkMemoryPropertyFlags[]){VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                      VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                                  VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0},
+        &tracer->scene);
+    if (status != STATUS_DONE)
+        return status;
+    for (int i = 0; i < SCENE_BINDINGS; ++i) {
+        tracer->bindings[i].buffer = tracer->scene.buffer;
+        unsigned char *place = (unsigned char *)tracer->scene.mapped + tracer->bindings[i].offset;
+        memcpy(place, parts[i].data, parts[i].element_size * parts[i].count);
+    }
+    return STATUS_DONE;
+}
+
+static enum status create_picture(struct tracer *tracer)
+{
+    VkDeviceSize size = (VkDeviceSize)tracer->tile_pixels * CHANNELS * sizeof(float);
+    const VkMemoryPropertyFlags readable =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    enum status status = vulkan_buffer_create(
+        tracer->context, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+        (VkMemoryPropertyFlags[]){VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | readable, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                  0},
+        &tracer->picture);
+    tracer->bindings[PICTURE] = (VkDescriptorBufferInfo){.buffer = tracer->picture.buffer, .range = VK_WHOLE_SIZE};
+    if (status != STATUS_DONE || (tracer->picture.properties & readable) == readable)
+        return status;
+    return vulkan_buffer_create(
+        tracer->context, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+        (VkMemoryPropertyFlags[]){readable, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                                  0},
+        &tracer->staging);
+}
+
+static enum status create_pipeline(struct tracer *tracer, const struct packed_scene *scene,
+                                   const struct tracer_options *options)
+{
+    const VkDevice device = tracer->context->device;
+    const struct spirv code = whitted_spirv(options->fast, tracer->scene_in_storage);
+    const struct specialization constants = specialize(tracer, scene, options->count_rays);
+    VkSpecializationMapEntry entries[sizeof constants / sizeof(uint32_t)];
+    for (uint32_t i = 0; i < sizeof entries / sizeof *entries; ++i)
+        entries[i] = (VkSpecializationMapEntry){i, i * (uint32_t)sizeof(uint32_t), sizeof(uint32_t)};
+
+    VkShaderModule module = VK_NULL_HANDLE;
+    double start = clock_ms();
+    VULKAN_CALL(vkCreateShaderModule, device,
+                &(VkShaderModuleCreateInfo){
+                    .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                    .codeSize = code.size,
+                    .pCode = code.words,
+                },
+                NULL, &module);
+    VULKAN_CALL(vkCreateComputePipelines, device, VK_NULL_HANDLE, 1,
+                &(VkComputePipelineCreateInfo){
+                    .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                    .stage =
+                        {
+                            .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                            .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                            .module = module,
+                            .pName = "main",
+                            .pSpecializationInfo =
+                                &(VkSpecializationInfo){
+                                    .mapEntryCount = sizeof entries / sizeof *entries,
+                                    .pMapEntries = entries,
+                                    .dataSize = sizeof constants,
+                                    .pData = &constants,
+                                },
+                        },
+                    .layout = tracer->pipeline_layout,
+                },
+                NULL, &tracer->pipeline);
+    vkDestroyShaderModule(device, module, NULL);
+    log_info("pipeline built in %.1f ms", clock_ms() - start);
+    return STATUS_DONE;
+
+error:
+    vkDestroyShaderModule(device, module, NULL);
+    return STATUS_UNABLE;
+}
+
+static enum status create_layout(struct tracer *tracer)
+{
+    const VkDevice device = tracer->context->device;
+    VkDescriptorSetLayoutBinding bindings[BINDINGS];
+    for (uint32_t i = 0; i < BINDINGS; ++i)
+        bindings[i] = (VkDescriptorSetLayoutBinding){
+            .binding = i,
+            .descriptorType = i == PICTURE || (i != VIEW && tracer->scene_in_storage)
+                                  ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                  : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+            .descriptorCount = 1,
+            .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT,
+        };
+    VULKAN_CALL(vkCreateDescriptorSetLayout, device,
+                &(VkDescriptorSetLayoutCreateInfo){
+                    .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                    .bindingCount = BINDINGS,
+                    .pBindings = bindings,
+                },
+                NULL, &tracer->set_layout);
+    VULKAN_CALL(vkCreatePipelineLayout, device,
+                &(VkPipelineLayoutCreateInfo){
+                    .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                    .setLayoutCount = 1,
+                    .pSetLayouts = &tracer->set_layout,
+                    .pushConstantRangeCount = 1,
+                    .pPushConstantRanges =
+                        &(VkPushConstantRange){VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(struct push_constants)},
+                },
+                NULL, &tracer->pipeline_layout);
+    VULKAN_CALL(vkCreateDescriptorPool, device,
+                &(VkDescriptorPoolCreateInfo){
+                    .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                    .maxSets = 1,
+                    .poolSizeCount = 2,
+                    .pPoolSizes = (VkDescriptorPoolSize[]){{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, BINDINGS},
+                                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, BINDINGS}},
+                },
+                NULL, &tracer->descriptor_pool);
+    VULKAN_CALL(vkAllocateDescriptorSets, device,
+                &(VkDescriptorSetAllocateInfo){
+                    .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                    .descriptorPool = tracer->descriptor_pool,
+                    .descriptorSetCount = 1,
+                    .pSetLayouts = &tracer->set_layout,
+                },
+                &tracer->set);
+    for (uint32_t i = 0; i < BINDINGS; ++i)
+        vkUpdateDescriptorSets(device, 1,
+                               &(VkWriteDescriptorSet){
+                                   .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                   .dstSet = tracer->set,
+                                   .dstBinding = i,
+                                   .descriptorCount = 1,
+                                   .descriptorType = bindings[i].descriptorType,
+                                   .pBufferInfo = &tracer->bindings[i],
+                               },
+                               0, NULL);
+    return STATUS_DONE;
+
+error:
+    return STATUS_UNABLE;
+}
+
+static enum status create_commands(struct tracer *tracer)
+{
+    const VkDevice device = tracer->context->device;
+    VULKAN_CALL(vkCreateCommandPool, device,
+                &(VkCommandPoolCreateInfo){
+                    .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                    .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
+                    .queueFamilyIndex = tracer->context->queue_family,
+                },
+                NULL, &tracer->command_pool);
+    VULKAN_CALL(vkAllocateCommandBuffers, device,
+                &(VkCommandBufferAllocateInfo){
+                    .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                    .commandPool = tracer->command_pool,
+                    .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                    .commandBufferCount = 1,
+                },
+                &tracer->commands);
+    if (tracer->context->timestamp_bits > 0)
+        VULKAN_CALL(vkCreateQueryPool, device,
+                    &(VkQueryPoolCreateInfo){
+                        .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                        .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                        .queryCount = 2,
+                    },
+                    NULL, &tracer->timestamps);
+    VULKAN_CALL(vkCreateFence, device, &(VkFenceCreateInfo){.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO}, NULL,
+                &tracer->fence);
+    return STATUS_DONE;
+
+error:
+    return STATUS_UNABLE;
+}
+
+/* A dispatch should end well within a second, so that Ctrl-C is heard and no watchdog bites. */
+static unsigned choose_tile_pixels(const struct vulkan_context *context, const struct packed_scene *scene)
+{
+    uint64_t work_per_pixel =
+        (uint64_t)scene->samples * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
+    uint64_t pixels = (UINT64_C(1) << 26) / work_per_pixel;
+    uint64_t fitting = context->properties.limits.maxStorageBufferRange / (CHANNELS * sizeof(float));
+    pixels = pixels < 1024 ? 1024 : pixels;
+    pixels = pixels > 1 << 21 ? 1 << 21 : pixels;
+    return (unsigned)(pixels < fitting ? pixels : fitting);
+}
+
+enum status tracer_create(struct vulkan_context *context, const struct packed_scene *scene,
+                          const struct tracer_options *options, struct tracer **pointer)
+{
+    struct tracer *tracer = *pointer = calloc(1, sizeof *tracer);
+    if (!tracer) {
+        log_error("no memory for the tracer");
+        return STATUS_UNABLE;
+    }
+    tracer->context = context;
+    tracer->group_width = options->group_width ? options->group_width : 8;
+    tracer->group_height = options->group_height ? options->group_height : 8;
+    tracer->tile_pixels = options->tile_pixels ? options->tile_pixels : choose_tile_pixels(context, scene);
+    tracer->picture_width = (unsigned)scene->width;
+    tracer->picture_height = (unsigned)scene->height;
+    enum status status = upload_scene(tracer, scene);
+    if (status == STATUS_DONE)
+        status = create_picture(tracer);
+    if (status == STATUS_DONE)
+        status = create_layout(tracer);
+    if (status == STATUS_DONE)
+        status = create_pipeline(tracer, scene, options);
+    if (status == STATUS_DONE)
+        status = create_commands(tracer);
+    if (status != STATUS_DONE)
+        tracer_destroy(pointer);
+    return status;
+}
+
+void tracer_destroy(struct tracer **pointer)
+{
+    struct tracer *tracer = *pointer;
+    *pointer = NULL;
+    if (!tracer)
+        return;
+    const VkDevice device = tracer->context->device;
+    vkDestroyFence(device, tracer->fence, NULL);
+    vkDestroyQueryPool(device, tracer->timestamps, NULL);
+    vkDestroyCommandPool(device, tracer->command_pool, NULL);
+    vkDestroyPipeline(device, tracer->pipeline, NULL);
+    vkDestroyDescriptorPool(device, tracer->descriptor_pool, NULL);
+    vkDestroyPipelineLayout(device, tracer->pipeline_layout, NULL);
+    vkDestroyDescriptorSetLayout(device, tracer->set_layout, NULL);
+    vulkan_buffer_destroy(tracer->context, &tracer->staging);
+    vulkan_buffer_destroy(tracer->context, &tracer->picture);
+    vulkan_buffer_destroy(tracer->context, &tracer->scene);
+    free(tracer);
+}
+
+static void record_barrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
+                           VkPipelineStageFlags to, VkAccessFlags read)
+{
+    vkCmdPipelineBarrier(commands, from, to, 0, 1,
+                         &(VkMemoryBarrier){
+                             .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                             .srcAccessMask = written,
+                             .dstAccessMask = read,
+                         },
+                         0, NULL, 0, NULL);
+}
+
+static enum status record_tile(struct tracer *tracer, struct window tile)
+{
+    const VkCommandBuffer commands = tracer->commands;
+    const struct push_constants constants = {tile.x,      tile.y, tile.width, tile.height, tracer->picture_width,
+                                             tracer->picture_height};
+    VULKAN_CALL(vkBeginCommandBuffer, commands,
+                &(VkCommandBufferBeginInfo){
+                    .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                    .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
+                });
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->pipeline);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->pipeline_layout, 0, 1, &tracer->set, 0,
+                            NULL);
+    vkCmdPushConstants(commands, tracer->pipeline_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
+                       &constants);
+    if (tracer->timestamps) {
+        vkCmdResetQueryPool(commands, tracer->timestamps, 0, 2);
+        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, tracer->timestamps, 0);
+    }
+    vkCmdDispatch(commands, (tile.width + tracer->group_width - 1) / tracer->group_width,
+                  (tile.height + tracer->group_height - 1) / tracer->group_height, 1);
+    if (tracer->timestamps)
+        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, tracer->timestamps, 1);
+    if (tracer->staging.buffer) {
+        record_barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+        vkCmdCopyBuffer(commands, tracer->picture.buffer, tracer->staging.buffer, 1,
+                        &(VkBufferCopy){
+                            .size = (VkDeviceSize)tile.width * tile.height * CHANNELS * sizeof(float),
+                        });
+        record_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    } else {
+        record_barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    }
+    VULKAN_CALL(vkEndCommandBuffer, commands);
+    return STATUS_DONE;
+
+error:
+    return STATUS_UNABLE;
+}
+
+/* Leaves the tile in the buffer that the host reads; adds the device's time to *dispatch_ms. */
+static enum status dispatch_tile(struct tracer *tracer, struct window tile, double *dispatch_ms)
+{
+    const VkDevice device = tracer->context->device;
+    enum status status = record_tile(tracer, tile);
+    if (status != STATUS_DONE)
+        return status;
+    double start = clock_ms();
+    VULKAN_CALL(vkQueueSubmit, tracer->context->queue, 1,
+                &(VkSubmitInfo){
+                    .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
+                    .commandBufferCount = 1,
+                    .pCommandBuffers = &tracer->commands,
+                },
+                tracer->fence);
+    VULKAN_CALL(vkWaitForFences, device, 1, &tracer->fence, VK_TRUE, UINT64_MAX);
+    VULKAN_CALL(vkResetFences, device, 1, &tracer->fence);
+    if (tracer->timestamps) {
+        uint64_t ticks[2];
+        VULKAN_CALL(vkGetQueryPoolResults, device, tracer->timestamps, 0, 2, sizeof ticks, ticks, sizeof *ticks,
+                    VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+        uint64_t mask = UINT64_MAX >> (64 - tracer->context->timestamp_bits);
+        *dispatch_ms += (double)((ticks[1] - ticks[0]) & mask) *
+                        (double)tracer->context->properties.limits.timestampPeriod * 1e-6;
+    } else {
+        *dispatch_ms += clock_ms() - start;
+    }
+    return STATUS_DONE;
+
+error:
+    return STATUS_UNABLE;
+}
+
+enum status tracer_render(struct tracer *tracer, struct window window, struct image *image,
+                          struct progress *progress, double *dispatch_ms)
+{
+    const float *pixels = tracer->staging.buffer ? tracer->staging.mapped : tracer->picture.mapped;
+    unsigned tile_width = window.width < 1024 ? window.width : 1024;
+    if (tile_width > tracer->tile_pixels)
+        tile_width = tracer->tile_pixels;
+    unsigned tile_height = tracer->tile_pixels / tile_width;
+    *dispatch_ms = 0;
+    for (unsigned y = 0; y < window.height; y += tile_height) {
+        for (unsigned x = 0; x < window.width; x += tile_width) {
+            if (interrupt_requested())
+                return STATUS_INTERRUPTED;
+            struct window tile = {
+                .x = window.x + x,
+                .y = window.y + y,
+                .width = window.width - x < tile_width ? window.width - x : tile_width,
+                .height = window.height - y < tile_height ? window.height - y : tile_height,
+            };
+            enum status status = dispatch_tile(tracer, tile, dispatch_ms);
+            if (status != STATUS_DONE)
+                return status;
+            for (unsigned row = 0; row < tile.height; ++row)
+                memcpy(image->rgb + ((size_t)(y + row) * window.width + x) * CHANNELS,
+                       pixels + (size_t)row * tile.width * CHANNELS, tile.width * CHANNELS * sizeof(float));
+            progress_advance(progress, (uint64_t)tile.width * tile.height);
+        }
+    }
+    return STATUS_DONE;
+}

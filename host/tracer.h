@@ -1,0 +1,35 @@
+#ifndef VKWHITTED_TRACER_H
+#define VKWHITTED_TRACER_H
+
+#include "image.h"
+#include "packed_scene.h"
+#include "progress.h"
+#include "vulkan_context.h"
+
+/* The compute pipeline for one packed scene, specialised to it. */
+struct tracer;
+
+struct tracer_options {
+    bool fast;       /* contraction and built-in functions allowed */
+    bool count_rays; /* pixels are the numbers of primary, secondary and shadow rays instead of radiance */
+    unsigned group_width, group_height; /* invocations; 0: a choice that suits the device */
+    unsigned tile_pixels;               /* most pixels a dispatch; 0: likewise */
+};
+
+/* Part of the picture, in pixels from the top left. */
+struct window {
+    unsigned x, y, width, height;
+};
+
+/* Builds the pipeline and uploads the scene. On failure (reported) *tracer is NULL. */
+enum status tracer_create(struct vulkan_context *context, const struct packed_scene *scene,
+                          const struct tracer_options *options, struct tracer **tracer);
+void tracer_destroy(struct tracer **tracer);
+
+/* Renders the window of the picture into image, which has the window's size. *dispatch_ms gets the time that the
+ * device spent (device timestamps where it has them, otherwise from submission to completion). Advances progress,
+ * whose unit is a pixel. STATUS_INTERRUPTED after Ctrl-C. */
+enum status tracer_render(struct tracer *tracer, struct window window, struct image *image,
+                          struct progress *progress, double *dispatch_ms);
+
+#endif

@@ -1,0 +1,212 @@
+// Rays against spheres and planes, without any tolerance: a ray knows which surface it leaves and to which
+// side, and a point is known to lie on that surface and outside everything it cannot have entered.
+
+struct Ray {
+    real3 origin, direction; // direction of length 1
+    int surface;             // the object the ray leaves, -1 for the camera; spheres first, then planes
+    bool inward;             // it leaves a sphere towards the inside
+};
+
+struct Hit {
+    real distance;
+    int surface; // -1: none
+    bool leaving; // met from the inside of a sphere, or from the glass side of a transparent plane
+    vec4 shape;   // center_radius or normal_offset
+    vec4 parameters;
+    float oren_nayar_b;
+    int kind;
+    int rank;
+};
+
+// Where a line passes a sphere (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray
+// Tracing Gems, chapter 7): all terms are of the sphere's size, however far away it is.
+struct Passage {
+    real along;             // from the origin to the closest approach
+    real3 foot;             // from the closest approach to the centre
+    real half_chord_squared; // negative: it misses
+};
+
+Passage pass_sphere(real3 to_center, real3 direction, real radius)
+{
+    exact real along = dot3(to_center, direction);
+    exact real3 foot = to_center - along * direction;
+    exact real half_chord_squared = radius * radius - dot3(foot, foot);
+    return Passage(along, foot, half_chord_squared);
+}
+
+real half_chord_of(Passage passage)
+{
+    exact real half_chord = sqrt(passage.half_chord_squared > real(0) ? passage.half_chord_squared : real(0));
+    return half_chord;
+}
+
+bool lies_inside(real3 to_center, real radius)
+{
+    exact real radius_squared = radius * radius;
+    return dot3(to_center, to_center) < radius_squared;
+}
+
+// Of surfaces at the same distance the first of the scene file counts.
+bool comes_first(real distance, int rank, Hit nearest)
+{
+    if (MIXED_ORDER)
+        return distance < nearest.distance || (distance == nearest.distance && rank < nearest.rank);
+    return distance < nearest.distance;
+}
+
+void take(inout Hit nearest, real distance, int surface, bool leaving, vec4 shape, PackedSurface material)
+{
+    nearest.distance = distance;
+    nearest.surface = surface;
+    nearest.leaving = leaving;
+    nearest.shape = shape;
+    nearest.parameters = material.parameters;
+    nearest.oren_nayar_b = material.oren_nayar_b.x;
+    nearest.kind = material.tags.x;
+    nearest.rank = material.tags.y;
+}
+
+void meet_sphere(Ray ray, int i, inout Hit nearest)
+{
+    vec4 shape = spheres[i].center_radius;
+    PackedSurface material = spheres[i].surface;
+    real radius = real(shape.w);
+    exact real3 to_center = real3(shape.xyz) - ray.origin;
+    Passage passage = pass_sphere(to_center, ray.direction, radius);
+    bool own = ray.surface == i;
+
+    // From outside: the near end of the chord.
+    exact real half_chord = half_chord_of(passage);
+    exact real distance = passage.along - half_chord;
+    bool met = !own && passage.along > real(0) && passage.half_chord_squared > real(0);
+    bool leaving = false;
+    if (GLASS || SPHERES_HOLD_RAYS) {
+        // From the surface inward the way is a whole chord: it is certain to end on the sphere.
+        bool through = own && ray.inward;
+        exact real chord = passage.along > real(0) ? real(2) * passage.along : real(0);
+        bool inside = false;
+        if (SPHERES_HOLD_RAYS)
+            inside = !own && material.tags.z != 0 && lies_inside(to_center, radius);
+        exact real far_end = passage.along + half_chord;
+        far_end = far_end > real(0) ? far_end : real(0);
+        leaving = through || inside;
+        met = met || leaving;
+        distance = through ? chord : (inside ? far_end : distance);
+    }
+    if (met && comes_first(distance, material.tags.y, nearest))
+        take(nearest, distance, i, leaving, shape, material);
+}
+
+void meet_plane(Ray ray, int i, inout Hit nearest)
+{
+    vec4 shape = planes[i].normal_offset;
+    PackedSurface material = planes[i].surface;
+    real3 normal = real3(shape.xyz);
+    exact real slope = dot3(normal, ray.direction);
+    exact real height = dot3(normal, ray.origin) - real(shape.w);
+    bool met = slope < -real(PARALLEL);
+    bool leaving = false;
+    bool transparent = GLASS_PLANES && material.tags.x == KIND_TRANSPARENT;
+    if (transparent) {
+        leaving = slope > real(0);
+        met = leaving ? slope > real(PARALLEL) && height < real(0) : met && height > real(0);
+    } else {
+        height = height > real(0) ? height : real(0); // an opaque plane is never behind the ray's origin
+    }
+    exact real distance = height / -slope;
+    if (met && ray.surface != SPHERES + i && comes_first(distance, material.tags.y, nearest))
+        take(nearest, distance, SPHERES + i, leaving, shape, material);
+}
+
+Hit nearest_hit(Ray ray)
+{
+    Hit nearest;
+    nearest.distance = real(FARTHEST_HIT);
+    nearest.surface = -1;
+    nearest.leaving = false;
+    nearest.shape = vec4(0);
+    nearest.parameters = vec4(0);
+    nearest.oren_nayar_b = 0.0;
+    nearest.kind = KIND_MATTE;
+    nearest.rank = 0;
+    for (int i = 0; i < SPHERES; ++i)
+        meet_sphere(ray, i, nearest);
+    for (int i = 0; i < PLANES; ++i)
+        meet_plane(ray, i, nearest);
+    return nearest;
+}
+
+// The hit's point, put on the surface, and the unit normal that faces the ray.
+void hit_point(Ray ray, Hit hit, out real3 point, out real3 facing_normal)
+{
+    exact real3 position;
+    exact real3 normal;
+    if (hit.surface < SPHERES) {
+        real3 center = real3(hit.shape.xyz);
+        real radius = real(hit.shape.w);
+        exact real3 to_center = center - ray.origin;
+        Passage passage = pass_sphere(to_center, ray.direction, radius);
+        exact real half_chord = half_chord_of(passage);
+        exact real3 from_center = -(passage.foot + (hit.leaving ? -half_chord : half_chord) * ray.direction);
+        normal = unit(from_center);
+        position = center + radius * normal;
+    } else {
+        normal = real3(hit.shape.xyz);
+        position = ray.origin + hit.distance * ray.direction;
+        exact real off = dot3(normal, position) - real(hit.shape.w);
+        position = position - off * normal;
+    }
+    point = position;
+    facing_normal = hit.leaving ? -normal : normal;
+}
+
+// Whether sphere i stands between a point on `surface` (its inner side if `inward`) and a light point at
+// `distance` in unit direction `to_light`.
+bool sphere_shadows(int i, real3 point, int surface, bool inward, real3 to_light, real distance, real3 light)
+{
+    real3 center = real3(spheres[i].center_radius.xyz);
+    real radius = real(spheres[i].center_radius.w);
+    exact real3 to_center = center - point;
+    Passage passage = pass_sphere(to_center, to_light, radius);
+    bool own = surface == i;
+    bool shadows = passage.along > real(0) && passage.half_chord_squared > real(0) && passage.along < distance;
+    if (GLASS || SPHERES_HOLD_RAYS || SPHERES_HOLD_LIGHTS) {
+        bool point_inside = own && inward;
+        bool light_inside = false;
+        if (SPHERES_HOLD_RAYS && spheres[i].surface.tags.z != 0 && !own)
+            point_inside = lies_inside(to_center, radius);
+        if (SPHERES_HOLD_LIGHTS && spheres[i].surface.tags.w != 0) {
+            exact real3 light_to_center = center - light;
+            light_inside = lies_inside(light_to_center, radius);
+        }
+        if (point_inside || light_inside)
+            shadows = point_inside != light_inside;
+    }
+    return shadows && !(own && !inward);
+}
+
+// A segment crosses a plane exactly when its ends lie on different sides. The point is known to lie on the
+// front of every opaque plane.
+bool plane_shadows(int i, real3 point, int surface, real3 light)
+{
+    if (planes[i].surface.tags.z == 0)
+        return false;
+    real3 normal = real3(planes[i].normal_offset.xyz);
+    real offset = real(planes[i].normal_offset.w);
+    exact real light_height = dot3(normal, light) - offset;
+    if (!(GLASS_PLANES && planes[i].surface.tags.x == KIND_TRANSPARENT))
+        return light_height < real(0);
+    exact real point_height = dot3(normal, point) - offset;
+    return surface != SPHERES + i && ((light_height < real(0)) != (point_height < real(0)));
+}
+
+bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real distance, real3 light)
+{
+    bool shadowed = false;
+    for (int i = 0; i < SPHERES; ++i)
+        shadowed = sphere_shadows(i, point, surface, inward, to_light, distance, light) || shadowed;
+    if (PLANES_SHADOW)
+        for (int i = 0; i < PLANES; ++i)
+            shadowed = plane_shadows(i, point, surface, light) || shadowed;
+    return shadowed;
+}

@@ -1,0 +1,19 @@
+#ifndef VKWHITTED_PACKED_SCENE_H
+#define VKWHITTED_PACKED_SCENE_H
+
+#include "scene_layout.h"
+
+/* Everything a renderer needs to know, for the device and the reference alike; C only. Both start from
+ * these single-precision values, so that all precisions render exactly the same scene. */
+struct packed_scene {
+    struct PackedView view;
+    int width, height; /* of the whole picture, pixels */
+    int max_bounces, samples, light_samples;
+    int sphere_count, plane_count, point_light_count, quad_light_count;
+    struct PackedSphere *spheres;
+    struct PackedPlane *planes;
+    struct PackedPointLight *point_lights;
+    struct PackedQuadLight *quad_lights;
+};
+
+#endif

@@ -1,0 +1,85 @@
+/* The packed scene: what the device reads. Included by GLSL and by C, so that neither side can drift.
+ * std140 and std430 agree with C here, because every member is a vector of four.
+ *
+ * Lengths are in scene units: metres times a power of two that brings the scene's extent into (1/2, 1],
+ * so that no square under- or overflows and a scene scaled by a power of two packs to the same bits. */
+#ifndef SCENE_LAYOUT_H
+#define SCENE_LAYOUT_H
+
+#ifdef VULKAN /* defined by glslang */
+#define LAYOUT_VEC4 vec4
+#define LAYOUT_IVEC4 ivec4
+#else
+typedef struct {
+    float x, y, z, w;
+} layout_vec4;
+typedef struct {
+    int x, y, z, w;
+} layout_ivec4;
+typedef struct PackedSurface PackedSurface;
+#define LAYOUT_VEC4 layout_vec4
+#define LAYOUT_IVEC4 layout_ivec4
+#endif
+
+#define KIND_MATTE 0
+#define KIND_MIRROR 1
+#define KIND_TRANSPARENT 2
+
+/* Nothing is met farther away than this, in scene units: its square and the square of any distance
+ * between two such points stay finite. */
+#define FARTHEST_HIT 1125899906842624.0 /* 2^50 */
+
+/* A light nearer than 2^-30 scene units does not shine: float cannot tell where it is. */
+#define NEAREST_LIGHT_SQUARED 8.673617379884035e-19 /* 2^-60 */
+
+/* A direction's component along a normal below this is parallel. Far below what float arithmetic on
+ * unit vectors yields otherwise; it keeps decisions away from denormals, which drivers treat differently. */
+#define PARALLEL 7.888609052210118e-31 /* 2^-100 */
+
+/* A ray of smaller weight is not traced and a smaller pixel value is 0, for the same reason. */
+#define SMALLEST_WEIGHT 8.077935669463161e-28 /* 2^-90 */
+
+struct PackedSurface {
+    /* matte: albedo / pi in xyz, Oren-Nayar's A in w.
+     * transparent: eta entering, 1 - eta^2 entering, eta leaving, 1 - eta^2 leaving. */
+    LAYOUT_VEC4 parameters;
+    LAYOUT_VEC4 oren_nayar_b; /* matte: Oren-Nayar's B in x */
+    /* x: KIND_; y: rank in the scene file, the lower wins a tie; z: plane only, whether it can shadow. */
+    LAYOUT_IVEC4 tags;
+};
+
+struct PackedSphere {
+    LAYOUT_VEC4 center_radius;
+    PackedSurface surface;
+};
+
+/* The points p with normal . p = offset. An opaque plane's normal points to the camera's side, where all
+ * rays and points stay; a transparent plane's points out of the glass. */
+struct PackedPlane {
+    LAYOUT_VEC4 normal_offset; /* unit normal */
+    PackedSurface surface;
+};
+
+struct PackedPointLight {
+    LAYOUT_VEC4 position;
+    LAYOUT_VEC4 intensity; /* color power, in radiance times square scene units */
+};
+
+/* One sample's share: the estimate is the plain sum over the samples. */
+struct PackedQuadLight {
+    LAYOUT_VEC4 corner;
+    LAYOUT_VEC4 edge_u;
+    LAYOUT_VEC4 edge_v;
+    LAYOUT_VEC4 area_normal; /* u x v */
+    LAYOUT_VEC4 radiance;    /* color power / samples */
+};
+
+struct PackedView {
+    LAYOUT_VEC4 position;
+    LAYOUT_VEC4 forward;       /* to the middle of the image plane at distance 1 */
+    LAYOUT_VEC4 half_pixel_right; /* on that plane */
+    LAYOUT_VEC4 half_pixel_down;
+    LAYOUT_VEC4 background; /* radiance */
+};
+
+#endif

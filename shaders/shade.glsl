@@ -1,0 +1,83 @@
+// Light that a matte point sends back along the ray: Oren-Nayar, point and quad lights, shadow rays.
+
+struct Matte {
+    real3 point, normal; // normal of length 1, facing the ray
+    real3 ray_direction;
+    real cos_out;
+    int surface;
+    bool inward;
+    real a, b; // Oren-Nayar's A and B
+};
+
+// The Oren-Nayar factor A + B max(0, cos(phi_i - phi_o)) sin(alpha) tan(beta) times cos_in (Oren and Nayar,
+// "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994, without trigonometry).
+real matte_factor(Matte matte, real3 to_light, real cos_in)
+{
+    if (!ROUGH) {
+        exact real lambert = matte.a * cos_in;
+        return lambert;
+    }
+    exact real in_plane = -dot3(to_light, matte.ray_direction) - cos_in * matte.cos_out;
+    exact real larger = cos_in > matte.cos_out ? cos_in : matte.cos_out;
+    exact real sin_tan = in_plane > real(0) ? in_plane / larger : real(0);
+    exact real factor = (matte.a + matte.b * sin_tan) * cos_in;
+    return factor;
+}
+
+// What `light` at its point gives per unit of intensity: factor cos / distance^2, or 0 in shadow.
+// to_light comes back as well, for lights that do not shine to all sides.
+real point_irradiance(Matte matte, real3 light, out real3 to_light, inout uint shadow_rays)
+{
+    exact real3 way = light - matte.point;
+    exact real distance_squared = dot3(way, way);
+    exact real distance = sqrt(distance_squared);
+    exact real inverse = real(1.0) / distance;
+    exact real3 direction = way * inverse;
+    to_light = direction;
+    exact real cos_in = dot3(matte.normal, direction);
+    exact real irradiance = real(0);
+    if (cos_in > real(0) && distance_squared > real(NEAREST_LIGHT_SQUARED)) {
+        if (COUNT_RAYS)
+            ++shadow_rays;
+        if (!in_shadow(matte.point, matte.surface, matte.inward, direction, distance, light))
+            irradiance = matte_factor(matte, direction, cos_in) * (inverse * inverse);
+    }
+    return irradiance;
+}
+
+real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout uint shadow_rays)
+{
+    real3 corner = real3(quad_lights[i].corner.xyz);
+    real3 edge_u = real3(quad_lights[i].edge_u.xyz);
+    real3 edge_v = real3(quad_lights[i].edge_v.xyz);
+    real3 area_normal = real3(quad_lights[i].area_normal.xyz);
+    real3 radiance = real3(quad_lights[i].radiance.xyz);
+    Sequence sequence = sequence_of(seed);
+    exact real sum = real(0);
+    for (int k = 0; k < LIGHT_SAMPLES; ++k) {
+        real u, v;
+        sequence_point(sequence, first_sample + uint(k), u, v);
+        exact real3 light = corner + u * edge_u + v * edge_v;
+        real3 to_light;
+        real irradiance = point_irradiance(matte, light, to_light, shadow_rays);
+        exact real projected_area = dot3(area_normal, to_light);
+        if (projected_area > real(0))
+            sum = sum + irradiance * projected_area;
+    }
+    exact real3 total = radiance * sum;
+    return total;
+}
+
+// Radiance per unit of albedo / pi.
+real3 direct_light(Matte matte, uint sample_index, uint seed, inout uint shadow_rays)
+{
+    exact real3 sum = real3(0);
+    for (int i = 0; i < POINT_LIGHTS; ++i) {
+        real3 to_light;
+        real irradiance = point_irradiance(matte, real3(point_lights[i].position.xyz), to_light, shadow_rays);
+        sum = sum + irradiance * real3(point_lights[i].intensity.xyz);
+    }
+    for (int i = 0; i < QUAD_LIGHTS; ++i)
+        sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), shadow_rays);
+    return sum;
+}

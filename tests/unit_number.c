@@ -1,0 +1,166 @@
+#include <limits.h>
+#include <locale.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "number.h"
+
+static const struct {
+    const char *text;
+    double value;
+} doubles[] = {
+    { "0", 0 },
+    { "007", 7 },
+    { "+5", 5 },
+    { "-1.5", -1.5 },
+    { "0.1", 0.1 },
+    { "1e3", 1000 },
+    { "1E-3", 0.001 },
+    { "2.5e+2", 250 },
+    { "1e-400", 0 },
+    { "4.9e-324", 0x1p-1074 },
+    { "1.7976931348623157e308", 0x1.fffffffffffffp+1023 },
+    { "0.30000000000000004", 0.1 + 0.2 },
+    { "9007199254740993", 0x1p53 },
+};
+
+static const char *const not_doubles[] = {
+    "",      " ",
+    "+",     "-",
+    ".",     "1x",
+    "x1",    "1 ",
+    " 1",    "1.",
+    ".5",    "1.e3",
+    "1e",    "1e+",
+    "e5",    "--1",
+    "+-1",   "1.2.3",
+    "1e5.0", "0x10",
+    "0x1p3", "1f",
+    "nan",   "inf",
+    "-inf",  "infinity",
+    "1e999", "-1e999",
+    "1,5",   "1_000",
+    "1e5e5", "\t1",
+    "1\n",   "1.7976931348623159e308",
+};
+
+static void test_doubles(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof(doubles) / sizeof(doubles[0]); i++) {
+        double value = NAN;
+        if (!parse_double(doubles[i].text, strlen(doubles[i].text), &value) || value != doubles[i].value)
+            fail_msg("\"%s\" became %.17g instead of %.17g", doubles[i].text, value, doubles[i].value);
+    }
+    double zero = 1;
+    assert_true(parse_double("-0", 2, &zero));
+    assert_true(zero == 0 && signbit(zero));
+}
+
+static void test_not_doubles(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof(not_doubles) / sizeof(not_doubles[0]); i++) {
+        double value = 42;
+        if (parse_double(not_doubles[i], strlen(not_doubles[i]), &value) || value != 42)
+            fail_msg("\"%s\" was taken for the number %g", not_doubles[i], value);
+    }
+}
+
+static void test_length_counts(void **state)
+{
+    (void)state;
+    double value = 0;
+    assert_true(parse_double("1234", 2, &value));
+    assert_true(value == 12);
+    assert_false(parse_double("1\0002", 3, &value));
+
+    char digits[NUMBER_MAX_LENGTH + 1];
+    memset(digits, '0', sizeof(digits));
+    assert_true(parse_double(digits, NUMBER_MAX_LENGTH, &value));
+    assert_false(parse_double(digits, NUMBER_MAX_LENGTH + 1, &value));
+}
+
+/* Every double printed with 17 digits must come back, in any locale that this machine has. */
+static void test_round_trip_and_locale(void **state)
+{
+    (void)state;
+    static const char *const locales[] = { "C", "de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8" };
+    char texts[1000][32];
+    double values[1000];
+    uint64_t random = 1;
+    for (size_t i = 0; i < 1000; i++) {
+        do {
+            random = random * 6364136223846793005U + 1442695040888963407U;
+            uint64_t bits = random ^ random >> 29;
+            memcpy(&values[i], &bits, sizeof(bits));
+        } while (!isfinite(values[i]));
+        snprintf(texts[i], sizeof(texts[i]), "%.17g", values[i]);
+    }
+    for (size_t l = 0; l < sizeof(locales) / sizeof(locales[0]); l++) {
+        if (!setlocale(LC_ALL, locales[l]))
+            continue;
+        for (size_t i = 0; i < 1000; i++) {
+            double value = NAN;
+            if (!parse_double(texts[i], strlen(texts[i]), &value) || value != values[i])
+                fail_msg("\"%s\" became %.17g in the locale %s", texts[i], value, locales[l]);
+        }
+        double comma;
+        assert_false(parse_double("1,5", 3, &comma));
+    }
+    setlocale(LC_ALL, "C");
+}
+
+static void test_unsigned(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        unsigned long max;
+        bool good;
+        unsigned long value;
+    } cases[] = {
+        { "0", 0, true, 0 },
+        { "1", 0, false, 0 },
+        { "10", 9, false, 0 },
+        { "9", 9, true, 9 },
+        { "65536", 65536, true, 65536 },
+        { "65537", 65536, false, 0 },
+        { "00012", 20, true, 12 },
+        { "18446744073709551615", ULONG_MAX, ULONG_MAX == 18446744073709551615U, ULONG_MAX },
+        { "18446744073709551616", ULONG_MAX, false, 0 },
+        { "99999999999999999999999", ULONG_MAX, false, 0 },
+        { "", 9, false, 0 },
+        { "-1", 9, false, 0 },
+        { "+1", 9, false, 0 },
+        { "1.0", 9, false, 0 },
+        { "1e0", 9, false, 0 },
+        { "1x", 9, false, 0 },
+        { " 1", 9, false, 0 },
+        { "0x1", 9, false, 0 },
+    };
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        unsigned long value = 42;
+        bool good = parse_unsigned(cases[i].text, strlen(cases[i].text), cases[i].max, &value);
+        if (good != cases[i].good || value != (good ? cases[i].value : 42))
+            fail_msg("\"%s\" up to %lu: %s, %lu", cases[i].text, cases[i].max, good ? "taken" : "refused",
+                     value);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_doubles),       cmocka_unit_test(test_not_doubles),
+        cmocka_unit_test(test_length_counts), cmocka_unit_test(test_round_trip_and_locale),
+        cmocka_unit_test(test_unsigned),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,231 @@
+/* Output files appear whole or not at all, whatever goes wrong. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "image_file.h"
+#include "output_file.h"
+#include "test_folder.h"
+
+static void put_file(const char *name, const char *text)
+{
+    FILE *stream = fopen(name, "wb");
+    assert_non_null(stream);
+    assert_int_equal(fwrite(text, 1, strlen(text), stream), strlen(text));
+    assert_int_equal(fclose(stream), 0);
+}
+
+static void assert_file(const char *name, const char *text)
+{
+    char found[256] = "";
+    FILE *stream = fopen(name, "rb");
+    assert_non_null(stream);
+    size_t length = fread(found, 1, sizeof found - 1, stream);
+    fclose(stream);
+    found[length] = '\0';
+    assert_string_equal(found, text);
+}
+
+static mode_t mode_of(const char *name)
+{
+    struct stat info;
+    assert_int_equal(lstat(name, &info), 0);
+    return info.st_mode;
+}
+
+/* Opens a file that must be refused with one message, "vkwhitted: error: PATH: " and in it reason. */
+static void assert_refused(const char *path, const char *reason)
+{
+    struct output_file file;
+    char line[256], start[128];
+    test_messages_begin();
+    enum status status = output_file_open(path, &file);
+    int lines = test_messages_end(line);
+    snprintf(start, sizeof start, "vkwhitted: error: %s: ", path);
+    assert_int_equal(status, STATUS_UNABLE);
+    assert_int_equal(lines, 1);
+    assert_int_equal(strncmp(line, start, strlen(start)), 0);
+    if (!strstr(line, reason))
+        fail_msg("\"%s\" does not say \"%s\"", line, reason);
+    output_file_abandon(&file);
+}
+
+static void test_commit_replaces(void **state)
+{
+    (void)state;
+    put_file("target", "old");
+    struct output_file file;
+    assert_int_equal(output_file_open("target", &file), STATUS_DONE);
+    assert_true(output_file_write(&file, "new ", 4));
+    fprintf(file.stream, "%s", "text");
+    fflush(file.stream);
+    assert_file("target", "old");
+    assert_int_equal(output_file_commit(&file), STATUS_DONE);
+    assert_file("target", "new text");
+    output_file_abandon(&file);
+    assert_int_equal(test_folder_files(0), 1);
+}
+
+static void test_write_at(void **state)
+{
+    (void)state;
+    struct output_file file;
+    assert_int_equal(output_file_open("./target", &file), STATUS_DONE);
+    assert_true(output_file_write_at(&file, "world", 5, 6));
+    assert_true(output_file_write_at(&file, "hello ", 6, 0));
+    assert_int_equal(output_file_commit(&file), STATUS_DONE);
+    assert_file("target", "hello world");
+}
+
+static void test_abandon_and_check_leave_nothing(void **state)
+{
+    (void)state;
+    put_file("target", "old");
+    struct output_file file;
+    assert_int_equal(output_file_open("target", &file), STATUS_DONE);
+    output_file_write(&file, "new", 3);
+    output_file_abandon(&file);
+    output_file_abandon(&file);
+    assert_int_equal(output_file_check("target"), STATUS_DONE);
+    assert_int_equal(output_file_check("another"), STATUS_DONE);
+    assert_file("target", "old");
+    assert_int_equal(test_folder_files(0), 1);
+}
+
+static void commit_text(const char *path, const char *text)
+{
+    struct output_file file;
+    assert_int_equal(output_file_open(path, &file), STATUS_DONE);
+    output_file_write(&file, text, strlen(text));
+    assert_int_equal(output_file_commit(&file), STATUS_DONE);
+}
+
+static void test_permissions(void **state)
+{
+    (void)state;
+    mode_t before = umask(027);
+    commit_text("fresh", "x");
+    put_file("private", "old");
+    chmod("private", 0604);
+    commit_text("private", "new");
+    umask(before);
+    assert_int_equal(mode_of("fresh") & 0777, 0640);
+    assert_int_equal(mode_of("private") & 0777, 0604);
+    assert_file("private", "new");
+}
+
+static void test_symbolic_link_is_followed(void **state)
+{
+    (void)state;
+    put_file("target", "old");
+    assert_int_equal(symlink("target", "link"), 0);
+    commit_text("link", "new");
+    assert_true(S_ISLNK(mode_of("link")));
+    assert_file("target", "new");
+    assert_int_equal(symlink("nowhere", "dangling"), 0);
+    assert_refused("dangling", "No such file");
+}
+
+static void test_longest_name(void **state)
+{
+    (void)state;
+    char name[256];
+    memset(name, 'n', 255);
+    name[255] = '\0';
+    commit_text(name, "x");
+    assert_file(name, "x");
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir("folder", 0777), 0);
+    assert_int_equal(mkfifo("fifo", 0666), 0);
+    put_file("read-only", "old");
+    chmod("read-only", 0444);
+    assert_refused("folder", "Is a directory");
+    assert_refused("folder/", "Is a directory");
+    assert_refused("", "No such file");
+    assert_refused("missing/file", "No such file");
+    assert_refused("missing/", "No such file");
+    assert_refused("read-only/file", "Not a directory");
+    assert_refused("fifo", "not a regular file");
+    assert_refused("/dev/null", "not a regular file");
+    if (geteuid() != 0) {
+        assert_refused("read-only", "Permission denied");
+        assert_int_equal(chmod("folder", 0555), 0);
+        assert_refused("folder/file", "Permission denied");
+    }
+    assert_int_equal(rmdir("folder"), 0);
+    assert_int_equal(test_folder_files(0), 2);
+}
+
+/* A disk that is full for files above limit bytes. */
+static void limit_file_size(rlim_t limit)
+{
+    struct rlimit size;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &size), 0);
+    size.rlim_cur = limit;
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &size), 0);
+}
+
+static void assert_full_disk(const struct image *image, const char *name, rlim_t limit)
+{
+    const struct image_metadata metadata = {.scene = "s", .device = "d", .precision = "float"};
+    char line[256], start[64];
+    put_file(name, "old");
+    test_messages_begin();
+    limit_file_size(limit);
+    enum status status = image_write(image, name, &metadata);
+    limit_file_size(RLIM_INFINITY);
+    int lines = test_messages_end(line);
+    snprintf(start, sizeof start, "vkwhitted: error: %s: cannot write: ", name);
+    if (status != STATUS_UNABLE || lines != 1 || strncmp(line, start, strlen(start)) != 0)
+        fail_msg("%s at %lu bytes: status %d, %d lines: %s", name, (unsigned long)limit, status, lines, line);
+    assert_file(name, "old");
+    assert_int_equal(test_folder_files(1), 1);
+}
+
+static void test_full_disk(void **state)
+{
+    (void)state;
+    signal(SIGXFSZ, SIG_IGN);
+    struct image image;
+    assert_int_equal(image_create(500, 300, &image), STATUS_DONE);
+    uint32_t random = 1;
+    for (size_t i = 0; i < 500 * 300 * 3; i++)
+        image.rgb[i] = (float)((random = random * 1664525 + 1013904223) >> 8) * 0x1p-24f;
+    static const char *const names[] = {"a.png", "a.exr", "a.pfm"};
+    static const rlim_t limits[] = {0, 1, 100, 5000, 200000};
+    for (size_t n = 0; n < sizeof names / sizeof names[0]; n++)
+        for (size_t l = 0; l < sizeof limits / sizeof limits[0]; l++)
+            assert_full_disk(&image, names[n], limits[l]);
+    image_destroy(&image);
+}
+
+#define TEST_IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_folder_setup, test_folder_teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST_IN_FOLDER(test_commit_replaces),
+        TEST_IN_FOLDER(test_write_at),
+        TEST_IN_FOLDER(test_abandon_and_check_leave_nothing),
+        TEST_IN_FOLDER(test_permissions),
+        TEST_IN_FOLDER(test_symbolic_link_is_followed),
+        TEST_IN_FOLDER(test_longest_name),
+        TEST_IN_FOLDER(test_refusals),
+        TEST_IN_FOLDER(test_full_disk),
+    };
+    return cmocka_run_group_tests_name("output_file", tests, NULL, NULL);
+}
