@@ -299,6 +299,13 @@ static void warn_of_overlaps(const struct packing *packing)
         }
 }
 
+/* Leaves the last matte surface's A and B, for scenes in which all are the same. */
+static void share_roughness(struct packed_scene *packed, const PackedSurface *surface)
+{
+    if (surface->tags.x == KIND_MATTE)
+        packed->view.matte = (layout_vec4){surface->parameters.w, surface->oren_nayar_b.x, 0, 0};
+}
+
 static enum status pack_contents(struct packing *packing)
 {
     const struct scene *scene = packing->scene;
@@ -310,6 +317,10 @@ static enum status pack_contents(struct packing *packing)
         else
             pack_plane(packing, &scene->objects[i]);
     }
+    for (int i = 0; i < packed->sphere_count; ++i)
+        share_roughness(packed, &packed->spheres[i].surface);
+    for (int i = 0; i < packed->plane_count; ++i)
+        share_roughness(packed, &packed->planes[i].surface);
     for (int i = 0; i < packed->plane_count; ++i)
         packed->planes[i].surface.tags.z = packed->planes[i].surface.tags.x == KIND_TRANSPARENT;
     for (size_t i = 0; i < scene->light_count; ++i) {

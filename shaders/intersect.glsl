@@ -54,22 +54,22 @@ bool comes_first(real distance, int rank, Hit nearest)
     return distance < nearest.distance;
 }
 
-void take(inout Hit nearest, real distance, int surface, bool leaving, vec4 shape, PackedSurface material)
+void take(bool closer, inout Hit nearest, real distance, int surface, bool leaving, vec4 shape, PackedSurface material)
 {
-    nearest.distance = distance;
-    nearest.surface = surface;
-    nearest.leaving = leaving;
-    nearest.shape = shape;
-    nearest.parameters = material.parameters;
-    nearest.oren_nayar_b = material.oren_nayar_b.x;
-    nearest.kind = material.tags.x;
-    nearest.rank = material.tags.y;
+    nearest.distance = closer ? distance : nearest.distance;
+    nearest.surface = closer ? surface : nearest.surface;
+    nearest.leaving = closer ? leaving : nearest.leaving;
+    nearest.shape = closer ? shape : nearest.shape;
+    nearest.parameters = closer ? material.parameters : nearest.parameters;
+    nearest.oren_nayar_b = closer ? material.oren_nayar_b.x : nearest.oren_nayar_b;
+    nearest.kind = closer ? material.tags.x : nearest.kind;
+    nearest.rank = closer ? material.tags.y : nearest.rank;
 }
 
 void meet_sphere(Ray ray, int i, inout Hit nearest)
 {
-    vec4 shape = spheres[i].center_radius;
-    PackedSurface material = spheres[i].surface;
+    vec4 shape = get_sphere(i).center_radius;
+    PackedSurface material = get_sphere(i).surface;
     real radius = real(shape.w);
     exact real3 to_center = real3(shape.xyz) - ray.origin;
     Passage passage = pass_sphere(to_center, ray.direction, radius);
@@ -93,17 +93,27 @@ void meet_sphere(Ray ray, int i, inout Hit nearest)
         met = met || leaving;
         distance = through ? chord : (inside ? far_end : distance);
     }
-    if (met && comes_first(distance, material.tags.y, nearest))
-        take(nearest, distance, i, leaving, shape, material);
+    take(met && comes_first(distance, material.tags.y, nearest), nearest, distance, i, leaving, shape, material);
+}
+
+// normal . v for plane i. Along an axis the other two products are zeros, which change no bit.
+real dot_normal(int i, real3 normal, real3 v)
+{
+    uint axis = i < 16 ? PLANE_AXES >> (2 * i) & 3u : 0u;
+    exact real along_x = normal.x * v.x;
+    exact real along_y = normal.y * v.y;
+    exact real along_z = normal.z * v.z;
+    exact real general = dot3(normal, v);
+    return axis == 1u ? along_x : axis == 2u ? along_y : axis == 3u ? along_z : general;
 }
 
 void meet_plane(Ray ray, int i, inout Hit nearest)
 {
-    vec4 shape = planes[i].normal_offset;
-    PackedSurface material = planes[i].surface;
+    vec4 shape = get_plane(i).normal_offset;
+    PackedSurface material = get_plane(i).surface;
     real3 normal = real3(shape.xyz);
-    exact real slope = dot3(normal, ray.direction);
-    exact real height = dot3(normal, ray.origin) - real(shape.w);
+    exact real slope = dot_normal(i, normal, ray.direction);
+    exact real height = dot_normal(i, normal, ray.origin) - real(shape.w);
     bool met = slope < -real(PARALLEL);
     bool leaving = false;
     bool transparent = GLASS_PLANES && material.tags.x == KIND_TRANSPARENT;
@@ -114,8 +124,7 @@ void meet_plane(Ray ray, int i, inout Hit nearest)
         height = height > real(0) ? height : real(0); // an opaque plane is never behind the ray's origin
     }
     exact real distance = height / -slope;
-    if (met && ray.surface != SPHERES + i && comes_first(distance, material.tags.y, nearest))
-        take(nearest, distance, SPHERES + i, leaving, shape, material);
+    take(met && ray.surface != SPHERES + i && comes_first(distance, material.tags.y, nearest), nearest, distance, SPHERES + i, leaving, shape, material);
 }
 
 Hit nearest_hit(Ray ray)
@@ -129,9 +138,9 @@ Hit nearest_hit(Ray ray)
     nearest.oren_nayar_b = 0.0;
     nearest.kind = KIND_MATTE;
     nearest.rank = 0;
-    for (int i = 0; i < SPHERES; ++i)
+    [[unroll]] for (int i = 0; i < SPHERES; ++i)
         meet_sphere(ray, i, nearest);
-    for (int i = 0; i < PLANES; ++i)
+    [[unroll]] for (int i = 0; i < PLANES; ++i)
         meet_plane(ray, i, nearest);
     return nearest;
 }
@@ -164,8 +173,8 @@ void hit_point(Ray ray, Hit hit, out real3 point, out real3 facing_normal)
 // `distance` in unit direction `to_light`.
 bool sphere_shadows(int i, real3 point, int surface, bool inward, real3 to_light, real distance, real3 light)
 {
-    real3 center = real3(spheres[i].center_radius.xyz);
-    real radius = real(spheres[i].center_radius.w);
+    real3 center = real3(get_sphere(i).center_radius.xyz);
+    real radius = real(get_sphere(i).center_radius.w);
     exact real3 to_center = center - point;
     Passage passage = pass_sphere(to_center, to_light, radius);
     bool own = surface == i;
@@ -173,9 +182,9 @@ bool sphere_shadows(int i, real3 point, int surface, bool inward, real3 to_light
     if (GLASS || SPHERES_HOLD_RAYS || SPHERES_HOLD_LIGHTS) {
         bool point_inside = own && inward;
         bool light_inside = false;
-        if (SPHERES_HOLD_RAYS && spheres[i].surface.tags.z != 0 && !own)
+        if (SPHERES_HOLD_RAYS && get_sphere(i).surface.tags.z != 0 && !own)
             point_inside = lies_inside(to_center, radius);
-        if (SPHERES_HOLD_LIGHTS && spheres[i].surface.tags.w != 0) {
+        if (SPHERES_HOLD_LIGHTS && get_sphere(i).surface.tags.w != 0) {
             exact real3 light_to_center = center - light;
             light_inside = lies_inside(light_to_center, radius);
         }
@@ -189,12 +198,12 @@ bool sphere_shadows(int i, real3 point, int surface, bool inward, real3 to_light
 // front of every opaque plane.
 bool plane_shadows(int i, real3 point, int surface, real3 light)
 {
-    if (planes[i].surface.tags.z == 0)
+    if (get_plane(i).surface.tags.z == 0)
         return false;
-    real3 normal = real3(planes[i].normal_offset.xyz);
-    real offset = real(planes[i].normal_offset.w);
+    real3 normal = real3(get_plane(i).normal_offset.xyz);
+    real offset = real(get_plane(i).normal_offset.w);
     exact real light_height = dot3(normal, light) - offset;
-    if (!(GLASS_PLANES && planes[i].surface.tags.x == KIND_TRANSPARENT))
+    if (!(GLASS_PLANES && get_plane(i).surface.tags.x == KIND_TRANSPARENT))
         return light_height < real(0);
     exact real point_height = dot3(normal, point) - offset;
     return surface != SPHERES + i && ((light_height < real(0)) != (point_height < real(0)));
@@ -203,10 +212,10 @@ bool plane_shadows(int i, real3 point, int surface, real3 light)
 bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real distance, real3 light)
 {
     bool shadowed = false;
-    for (int i = 0; i < SPHERES; ++i)
+    [[unroll]] for (int i = 0; i < SPHERES; ++i)
         shadowed = sphere_shadows(i, point, surface, inward, to_light, distance, light) || shadowed;
     if (PLANES_SHADOW)
-        for (int i = 0; i < PLANES; ++i)
+        [[unroll]] for (int i = 0; i < PLANES; ++i)
             shadowed = plane_shadows(i, point, surface, light) || shadowed;
     return shadowed;
 }

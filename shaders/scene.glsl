@@ -17,7 +17,9 @@ layout(constant_id = 13) const bool SPHERES_HOLD_RAYS = true;   // some sphere h
 layout(constant_id = 14) const bool SPHERES_HOLD_LIGHTS = true; // some sphere has PackedSphere tag w
 layout(constant_id = 15) const bool PLANES_SHADOW = true;       // some plane has PackedPlane tag z
 layout(constant_id = 16) const bool MIXED_ORDER = true; // a plane stands before a sphere in the file
-layout(constant_id = 17) const bool COUNT_RAYS = false; // pixels are primary, secondary, shadow ray counts
+layout(constant_id = 17) const bool ONE_ROUGHNESS = false; // all matte surfaces have view.matte
+layout(constant_id = 18) const uint PLANE_AXES = 0u; // two bits a plane: normal along x 1, y 2, z 3, other 0
+layout(constant_id = 19) const bool COUNT_RAYS = false; // pixels are primary, secondary, shadow ray counts
 
 const bool SECONDARY_RAYS = (MIRRORS || GLASS) && MAX_BOUNCES > 0;
 
@@ -34,3 +36,55 @@ SCENE_ARRAY(1, PackedSphere, spheres, SPHERES);
 SCENE_ARRAY(2, PackedPlane, planes, PLANES);
 SCENE_ARRAY(3, PackedPointLight, point_lights, POINT_LIGHTS);
 SCENE_ARRAY(4, PackedQuadLight, quad_lights, QUAD_LIGHTS);
+
+// Mesa's lavapipe loads a uniform once for all lanes only outside of control flow, and lane by lane inside. So
+// small scenes are copied to variables first thing; their loops are unrolled, which makes registers of them.
+const bool HOISTED = SPHERES + PLANES + POINT_LIGHTS + QUAD_LIGHTS <= 24;
+PackedSphere hoisted_spheres[HOISTED ? SPHERES + 1 : 1];
+PackedPlane hoisted_planes[HOISTED ? PLANES + 1 : 1];
+PackedPointLight hoisted_point_lights[HOISTED ? POINT_LIGHTS + 1 : 1];
+PackedQuadLight hoisted_quad_lights[HOISTED ? QUAD_LIGHTS + 1 : 1];
+PackedView hoisted_view;
+
+void hoist_scene()
+{
+    hoisted_view = view;
+    if (!HOISTED)
+        return;
+    [[unroll]] for (int i = 0; i < SPHERES; ++i)
+        hoisted_spheres[i] = spheres[i];
+    [[unroll]] for (int i = 0; i < PLANES; ++i)
+        hoisted_planes[i] = planes[i];
+    [[unroll]] for (int i = 0; i < POINT_LIGHTS; ++i)
+        hoisted_point_lights[i] = point_lights[i];
+    [[unroll]] for (int i = 0; i < QUAD_LIGHTS; ++i)
+        hoisted_quad_lights[i] = quad_lights[i];
+}
+
+PackedSphere get_sphere(int i)
+{
+    if (HOISTED)
+        return hoisted_spheres[i];
+    return spheres[i];
+}
+
+PackedPlane get_plane(int i)
+{
+    if (HOISTED)
+        return hoisted_planes[i];
+    return planes[i];
+}
+
+PackedPointLight get_point_light(int i)
+{
+    if (HOISTED)
+        return hoisted_point_lights[i];
+    return point_lights[i];
+}
+
+PackedQuadLight get_quad_light(int i)
+{
+    if (HOISTED)
+        return hoisted_quad_lights[i];
+    return quad_lights[i];
+}

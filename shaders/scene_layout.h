@@ -80,6 +80,7 @@ struct PackedView {
     LAYOUT_VEC4 half_pixel_right; /* on that plane */
     LAYOUT_VEC4 half_pixel_down;
     LAYOUT_VEC4 background; /* radiance */
+    LAYOUT_VEC4 matte; /* Oren-Nayar's A in x and B in y, where all matte surfaces share them */
 };
 
 #endif

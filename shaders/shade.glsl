@@ -47,11 +47,11 @@ real point_irradiance(Matte matte, real3 light, out real3 to_light, inout uint s
 
 real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout uint shadow_rays)
 {
-    real3 corner = real3(quad_lights[i].corner.xyz);
-    real3 edge_u = real3(quad_lights[i].edge_u.xyz);
-    real3 edge_v = real3(quad_lights[i].edge_v.xyz);
-    real3 area_normal = real3(quad_lights[i].area_normal.xyz);
-    real3 radiance = real3(quad_lights[i].radiance.xyz);
+    real3 corner = real3(get_quad_light(i).corner.xyz);
+    real3 edge_u = real3(get_quad_light(i).edge_u.xyz);
+    real3 edge_v = real3(get_quad_light(i).edge_v.xyz);
+    real3 area_normal = real3(get_quad_light(i).area_normal.xyz);
+    real3 radiance = real3(get_quad_light(i).radiance.xyz);
     Sequence sequence = sequence_of(seed);
     exact real sum = real(0);
     for (int k = 0; k < LIGHT_SAMPLES; ++k) {
@@ -72,12 +72,12 @@ real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout uint
 real3 direct_light(Matte matte, uint sample_index, uint seed, inout uint shadow_rays)
 {
     exact real3 sum = real3(0);
-    for (int i = 0; i < POINT_LIGHTS; ++i) {
+    [[unroll]] for (int i = 0; i < POINT_LIGHTS; ++i) {
         real3 to_light;
-        real irradiance = point_irradiance(matte, real3(point_lights[i].position.xyz), to_light, shadow_rays);
-        sum = sum + irradiance * real3(point_lights[i].intensity.xyz);
+        real irradiance = point_irradiance(matte, real3(get_point_light(i).position.xyz), to_light, shadow_rays);
+        sum = sum + irradiance * real3(get_point_light(i).intensity.xyz);
     }
-    for (int i = 0; i < QUAD_LIGHTS; ++i)
+    [[unroll]] for (int i = 0; i < QUAD_LIGHTS; ++i)
         sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), shadow_rays);
     return sum;
 }

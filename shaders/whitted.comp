@@ -2,6 +2,7 @@
 // pixel, with an explicit stack that holds only what is pending.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 #include "arithmetic.glsl"
 #include "sampling.glsl"
@@ -16,6 +17,65 @@ layout(push_constant) uniform Tile {
     uvec2 tile_origin, tile_size, image_size; // pixels
 };
 
+// A ray, what it counts for in the pixel, and the bounces it has behind it.
+struct Path {
+    Ray ray;
+    real weight;
+    int bounces;
+};
+
+// The reflections still to be traced: at most one for every bounce count.
+const int STACK_ROOM = GLASS && MAX_BOUNCES > 0 ? MAX_BOUNCES : 1;
+const bool STACK_IN_REGISTERS = STACK_ROOM <= 8; // selects cost less than indexed memory on lavapipe
+real3 stack_origin[STACK_ROOM], stack_direction[STACK_ROOM];
+real stack_weight[STACK_ROOM];
+int stack_surface[STACK_ROOM], stack_bounces[STACK_ROOM];
+bool stack_inward[STACK_ROOM];
+
+void store_pending(int i, Path path)
+{
+    stack_origin[i] = path.ray.origin;
+    stack_direction[i] = path.ray.direction;
+    stack_surface[i] = path.ray.surface;
+    stack_inward[i] = path.ray.inward;
+    stack_weight[i] = path.weight;
+    stack_bounces[i] = path.bounces;
+}
+
+void load_pending(int i, inout Path path)
+{
+    path.ray.origin = stack_origin[i];
+    path.ray.direction = stack_direction[i];
+    path.ray.surface = stack_surface[i];
+    path.ray.inward = stack_inward[i];
+    path.weight = stack_weight[i];
+    path.bounces = stack_bounces[i];
+}
+
+void push(Path path, inout int pending)
+{
+    if (STACK_IN_REGISTERS) {
+        [[unroll]] for (int i = 0; i < STACK_ROOM; ++i)
+            if (i == pending)
+                store_pending(i, path);
+    } else {
+        store_pending(pending, path);
+    }
+    ++pending;
+}
+
+void pop(inout Path path, inout int pending)
+{
+    --pending;
+    if (STACK_IN_REGISTERS) {
+        [[unroll]] for (int i = 0; i < STACK_ROOM; ++i)
+            if (i == pending)
+                load_pending(i, path);
+    } else {
+        load_pending(pending, path);
+    }
+}
+
 struct Pixel {
     real3 radiance;
     uint seed;
@@ -24,127 +84,124 @@ struct Pixel {
     uint secondary_rays, shadow_rays;
 };
 
-Ray primary_ray(uvec2 position, real sample_x, real sample_y)
+Path primary_path(uvec2 position, real sample_x, real sample_y)
 {
     exact real x = real(2 * int(position.x) - int(image_size.x)) + real(2) * sample_x;
     exact real y = real(2 * int(position.y) - int(image_size.y)) + real(2) * sample_y;
     exact real3 through =
-        real3(view.forward.xyz) + x * real3(view.half_pixel_right.xyz) + y * real3(view.half_pixel_down.xyz);
-    return Ray(real3(view.position.xyz), unit(through), -1, false);
+        real3(hoisted_view.forward.xyz) + x * real3(hoisted_view.half_pixel_right.xyz) + y * real3(hoisted_view.half_pixel_down.xyz);
+    Path path;
+    path.ray.origin = real3(hoisted_view.position.xyz);
+    path.ray.direction = unit(through);
+    path.ray.surface = -1;
+    path.ray.inward = false;
+    path.weight = real(1);
+    path.bounces = 0;
+    return path;
 }
 
-void add_matte(inout Pixel pixel, Ray ray, Hit hit, real3 point, real3 normal, real weight)
+real3 matte_radiance(inout Pixel pixel, Ray ray, Hit hit, real3 point, real3 normal)
 {
     exact real cos_out = -dot3(normal, ray.direction);
-    Matte matte = Matte(point, normal, ray.direction, cos_out, hit.surface, hit.leaving, real(hit.parameters.w),
-                        real(hit.oren_nayar_b));
+    Matte matte;
+    matte.point = point;
+    matte.normal = normal;
+    matte.ray_direction = ray.direction;
+    matte.cos_out = cos_out;
+    matte.surface = hit.surface;
+    matte.inward = hit.leaving;
+    matte.a = real(ONE_ROUGHNESS ? hoisted_view.matte.x : hit.parameters.w);
+    matte.b = real(ONE_ROUGHNESS ? hoisted_view.matte.y : hit.oren_nayar_b);
     uint seed = hash(pixel.seed + pixel.shaded * uint(QUAD_LIGHTS));
-    exact real3 light = direct_light(matte, pixel.sample_index, seed, pixel.shadow_rays);
-    exact real3 reflected_light = real3(hit.parameters.xyz) * light;
-    exact real3 radiance = pixel.radiance + weight * reflected_light;
-    pixel.radiance = radiance;
     ++pixel.shaded;
+    exact real3 radiance =
+        real3(hit.parameters.xyz) * direct_light(matte, pixel.sample_index, seed, pixel.shadow_rays);
+    return radiance;
 }
 
-void trace(inout Pixel pixel, Ray ray)
+// Gives the ray of a mirror or glass hit its next direction; where glass splits it, the reflection is put on the
+// stack and the refraction goes on. False where nothing goes on.
+// (Members are assigned one by one, because glslang 12 crashes where `precise` has to follow a value through a
+// struct constructor in a loop.)
+bool bounce(inout Path path, inout int pending, Hit hit, real3 point, real3 normal)
 {
-    // Reflections still to be traced: at most one for every bounce count. Arrays and members stand alone,
-    // because glslang 12 crashes where `precise` follows a value through a struct constructor in a loop.
-    const int room = GLASS && MAX_BOUNCES > 0 ? MAX_BOUNCES : 1;
-    real3 stack_origin[room], stack_direction[room];
-    real stack_weight[room];
-    int stack_surface[room], stack_bounces[room];
-    bool stack_inward[room];
+    exact real cos_in = -dot3(normal, path.ray.direction);
+    cos_in = cos_in > real(0) ? cos_in : real(0);
+    real3 incident = path.ray.direction;
+    ++path.bounces;
+    path.ray.origin = point;
+    path.ray.direction = reflected(incident, normal, cos_in);
+    path.ray.surface = hit.surface;
+    path.ray.inward = hit.leaving;
+    if (!GLASS || hit.kind != KIND_TRANSPARENT)
+        return true;
+
+    real eta = real(hit.leaving ? hit.parameters.z : hit.parameters.x);
+    real kappa = real(hit.leaving ? hit.parameters.w : hit.parameters.y);
+    Refraction refraction = refracted(incident, normal, cos_in, eta, kappa);
+    exact real reflected_weight = refraction.total ? path.weight : path.weight * refraction.reflectance;
+    exact real refracted_weight = path.weight * (real(1) - refraction.reflectance);
+    bool reflects = reflected_weight > real(SMALLEST_WEIGHT);
+    bool refracts = !refraction.total && refracted_weight > real(SMALLEST_WEIGHT);
+    path.weight = reflected_weight;
+    if (refracts) {
+        if (reflects)
+            push(path, pending);
+        path.ray.direction = refraction.direction;
+        path.ray.inward = !hit.leaving;
+        path.weight = refracted_weight;
+    }
+    return reflects || refracts;
+}
+
+// Adds what the path's last ray sees to the pixel.
+void add_leaf(inout Pixel pixel, Path path, Hit hit, real3 point, real3 normal)
+{
+    exact real3 seen = real3(hoisted_view.background.xyz);
+    if (hit.surface >= 0) {
+        exact real3 black = real3(0);
+        seen = hit.kind == KIND_MATTE ? matte_radiance(pixel, path.ray, hit, point, normal) : black;
+    }
+    exact real3 radiance = pixel.radiance + path.weight * seen;
+    pixel.radiance = radiance;
+}
+
+// One turn of the loop traces one ray of the tree.
+void trace(inout Pixel pixel, Path path)
+{
     int pending = 0;
-    exact real weight = real(1);
-    int bounces = 0;
-    for (;;) {
-        bool goes_on = false;
-        Hit hit = nearest_hit(ray);
-        if (hit.surface < 0) {
-            exact real3 radiance = pixel.radiance + weight * real3(view.background.xyz);
-            pixel.radiance = radiance;
+    bool goes_on = true;
+    while (goes_on) {
+        Hit hit = nearest_hit(path.ray);
+        real3 point, normal;
+        hit_point(path.ray, hit, point, normal);
+        goes_on = false;
+        if (SECONDARY_RAYS && hit.surface >= 0 && hit.kind != KIND_MATTE) {
+            if (path.bounces < MAX_BOUNCES)
+                goes_on = bounce(path, pending, hit, point, normal);
         } else {
-            real3 point, normal;
-            hit_point(ray, hit, point, normal);
-            if (hit.kind == KIND_MATTE) {
-                add_matte(pixel, ray, hit, point, normal, weight);
-            } else if (SECONDARY_RAYS && bounces < MAX_BOUNCES) {
-                ++bounces;
-                exact real cos_in = -dot3(normal, ray.direction);
-                cos_in = cos_in > real(0) ? cos_in : real(0);
-                Ray reflection;
-                reflection.origin = point;
-                reflection.direction = reflected(ray.direction, normal, cos_in);
-                reflection.surface = hit.surface;
-                reflection.inward = hit.leaving;
-                goes_on = true;
-                if (GLASS && hit.kind == KIND_TRANSPARENT) {
-                    Refraction refraction =
-                        refracted(ray.direction, normal, cos_in, real(hit.leaving ? hit.parameters.z : hit.parameters.x),
-                                  real(hit.leaving ? hit.parameters.w : hit.parameters.y));
-                    if (refraction.total) {
-                        ray = reflection;
-                    } else {
-                        exact real reflected_weight = weight * refraction.reflectance;
-                        exact real refracted_weight = weight * (real(1) - refraction.reflectance);
-                        bool refracts = refracted_weight > real(SMALLEST_WEIGHT);
-                        bool reflects = reflected_weight > real(SMALLEST_WEIGHT);
-                        if (refracts && reflects) {
-                            stack_origin[pending] = reflection.origin;
-                            stack_direction[pending] = reflection.direction;
-                            stack_surface[pending] = reflection.surface;
-                            stack_inward[pending] = reflection.inward;
-                            stack_weight[pending] = reflected_weight;
-                            stack_bounces[pending] = bounces;
-                            ++pending;
-                        }
-                        ray = reflection;
-                        weight = reflected_weight;
-                        if (refracts) {
-                            ray.direction = refraction.direction;
-                            ray.inward = !hit.leaving;
-                            weight = refracted_weight;
-                        }
-                        goes_on = refracts || reflects;
-                    }
-                } else {
-                    ray = reflection;
-                }
-                if (COUNT_RAYS && goes_on)
-                    ++pixel.secondary_rays;
-            }
+            add_leaf(pixel, path, hit, point, normal);
         }
-        if (!SECONDARY_RAYS)
-            return;
-        if (!goes_on) {
-            if (!GLASS || pending == 0)
-                return;
-            --pending;
-            ray.origin = stack_origin[pending];
-            ray.direction = stack_direction[pending];
-            ray.surface = stack_surface[pending];
-            ray.inward = stack_inward[pending];
-            weight = stack_weight[pending];
-            bounces = stack_bounces[pending];
-            if (COUNT_RAYS)
-                ++pixel.secondary_rays;
+        if (GLASS && SECONDARY_RAYS && !goes_on && pending > 0) {
+            pop(path, pending);
+            goes_on = true;
         }
+        if (COUNT_RAYS && goes_on)
+            ++pixel.secondary_rays;
     }
 }
 
 void main()
 {
+    hoist_scene();
     uvec2 in_tile = gl_GlobalInvocationID.xy;
-    if (any(greaterThanEqual(in_tile, tile_size)))
-        return;
     uvec2 position = tile_origin + in_tile;
 
     Pixel pixel = Pixel(real3(0), 0u, 0u, 0u, 0u, 0u);
     if (SAMPLES > 1 || QUAD_LIGHTS > 0)
         pixel.seed = hash(hash(position.x) + position.y);
     if (SAMPLES == 1) {
-        trace(pixel, primary_ray(position, real(0.5), real(0.5)));
+        trace(pixel, primary_path(position, real(0.5), real(0.5)));
     } else {
         Sequence sequence = sequence_of(pixel.seed);
         for (int k = 0; k < SAMPLES; ++k) {
@@ -152,7 +209,7 @@ void main()
             pixel.shaded = 0u;
             real x, y;
             sequence_point(sequence, uint(k), x, y);
-            trace(pixel, primary_ray(position, x, y));
+            trace(pixel, primary_path(position, x, y));
         }
         exact real3 mean = pixel.radiance / real(SAMPLES);
         pixel.radiance = mean;
@@ -161,6 +218,8 @@ void main()
     real3 value = pixel.radiance;
     if (COUNT_RAYS)
         value = real3(real(SAMPLES), real(pixel.secondary_rays), real(pixel.shadow_rays));
+    if (any(greaterThanEqual(in_tile, tile_size)))
+        return;
     uint base = (in_tile.y * tile_size.x + in_tile.x) * 3u;
     for (uint c = 0u; c < 3u; ++c)
         picture[base + c] = value[c] > real(SMALLEST_WEIGHT) ? value[c] : real(0);
