@@ -20,10 +20,11 @@ static inline uint32_t hash32(uint32_t x)
 
 static inline uint32_t reverse_bits(uint32_t x)
 {
-    uint32_t reversed = 0;
-    for (int bit = 0; bit < 32; ++bit)
-        reversed |= (x >> bit & 1) << (31 - bit);
-    return reversed;
+    x = (x >> 16) | (x << 16);
+    x = ((x >> 8) & UINT32_C(0x00ff00ff)) | ((x & UINT32_C(0x00ff00ff)) << 8);
+    x = ((x >> 4) & UINT32_C(0x0f0f0f0f)) | ((x & UINT32_C(0x0f0f0f0f)) << 4);
+    x = ((x >> 2) & UINT32_C(0x33333333)) | ((x & UINT32_C(0x33333333)) << 2);
+    return ((x >> 1) & UINT32_C(0x55555555)) | ((x & UINT32_C(0x55555555)) << 1);
 }
 
 /* Nested uniform (Owen) scrambling; the hash works on reversed bits (N. Vegdahl, "Building a Better LK

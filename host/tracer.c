@@ -13,7 +13,7 @@ enum { CHANNELS = 3 };
 struct tracer {
     struct vulkan_context *context;
     bool scene_in_storage;
-    unsigned group_width, group_height, tile_pixels;
+    unsigned group_width, group_height, rows, tile_pixels;
     struct vulkan_buffer scene, picture;
     struct vulkan_buffer staging; /* only where the host cannot read `picture` well */
     VkDescriptorBufferInfo bindings[BINDINGS];
@@ -40,7 +40,7 @@ struct specialization {
     int32_t spheres, planes, point_lights, quad_lights, max_bounces, samples, light_samples;
     VkBool32 mirrors, glass, glass_planes, rough, spheres_hold_rays, spheres_hold_lights, planes_shadow, mixed_order,
         one_roughness;
-    uint32_t plane_axes;
+    uint32_t plane_axes, rows, entered_spheres;
     VkBool32 count_rays;
 };
 
@@ -78,6 +78,7 @@ static struct specialization specialize(const struct tracer *tracer, const struc
         .samples = scene->samples,
         .light_samples = scene->light_samples,
         .one_roughness = VK_TRUE,
+        .rows = tracer->rows,
         .count_rays = count_rays,
     };
     int last_sphere_rank = -1;
@@ -86,6 +87,8 @@ static struct specialization specialize(const struct tracer *tracer, const struc
         note_surface(&constants, scene, surface);
         constants.spheres_hold_rays |= surface->tags.z != 0;
         constants.spheres_hold_lights |= surface->tags.w != 0;
+        if (i < 32 && (surface->tags.x == KIND_TRANSPARENT || surface->tags.z != 0))
+            constants.entered_spheres |= UINT32_C(1) << i;
         last_sphere_rank = surface->tags.y;
     }
     for (int i = 0; i < scene->plane_count; ++i) {
@@ -325,8 +328,11 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
         return STATUS_UNABLE;
     }
     tracer->context = context;
+    /* A processor's lanes share the loading of the scene over many pixels; a GPU wants many invocations. */
+    bool on_processor = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    tracer->rows = on_processor ? 16 : 1;
     tracer->group_width = options->group_width ? options->group_width : 8;
-    tracer->group_height = options->group_height ? options->group_height : 8;
+    tracer->group_height = options->group_height ? options->group_height : on_processor ? 1 : 8;
     tracer->tile_pixels = options->tile_pixels ? options->tile_pixels : choose_tile_pixels(context, scene);
     tracer->picture_width = (unsigned)scene->width;
     tracer->picture_height = (unsigned)scene->height;
@@ -395,8 +401,9 @@ static enum status record_tile(struct tracer *tracer, struct window tile)
         vkCmdResetQueryPool(commands, tracer->timestamps, 0, 2);
         vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, tracer->timestamps, 0);
     }
+    unsigned group_rows = tracer->group_height * tracer->rows;
     vkCmdDispatch(commands, (tile.width + tracer->group_width - 1) / tracer->group_width,
-                  (tile.height + tracer->group_height - 1) / tracer->group_height, 1);
+                  (tile.height + group_rows - 1) / group_rows, 1);
     if (tracer->timestamps)
         vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, tracer->timestamps, 1);
     if (tracer->staging.buffer) {

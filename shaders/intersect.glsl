@@ -7,17 +7,6 @@ struct Ray {
     bool inward;             // it leaves a sphere towards the inside
 };
 
-struct Hit {
-    real distance;
-    int surface; // -1: none
-    bool leaving; // met from the inside of a sphere, or from the glass side of a transparent plane
-    vec4 shape;   // center_radius or normal_offset
-    vec4 parameters;
-    float oren_nayar_b;
-    int kind;
-    int rank;
-};
-
 // Where a line passes a sphere (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray
 // Tracing Gems, chapter 7): all terms are of the sphere's size, however far away it is.
 struct Passage {
@@ -46,6 +35,19 @@ bool lies_inside(real3 to_center, real radius)
     return dot3(to_center, to_center) < radius_squared;
 }
 
+struct Hit {
+    real distance;
+    int surface;  // -1: none
+    bool leaving; // met from the inside of a sphere, or from the glass side of a transparent plane
+    vec4 shape;   // center_radius or normal_offset
+    vec4 parameters;
+    float oren_nayar_b;
+    int kind;
+    int rank;
+    real3 foot; // sphere: see Passage
+    real half_chord;
+};
+
 // Of surfaces at the same distance the first of the scene file counts.
 bool comes_first(real distance, int rank, Hit nearest)
 {
@@ -66,6 +68,12 @@ void take(bool closer, inout Hit nearest, real distance, int surface, bool leavi
     nearest.rank = closer ? material.tags.y : nearest.rank;
 }
 
+// Whether any ray can run inside sphere i.
+bool rays_enter(int i)
+{
+    return i >= 32 || (ENTERED_SPHERES >> i & 1u) != 0u;
+}
+
 void meet_sphere(Ray ray, int i, inout Hit nearest)
 {
     vec4 shape = get_sphere(i).center_radius;
@@ -80,7 +88,7 @@ void meet_sphere(Ray ray, int i, inout Hit nearest)
     exact real distance = passage.along - half_chord;
     bool met = !own && passage.along > real(0) && passage.half_chord_squared > real(0);
     bool leaving = false;
-    if (GLASS || SPHERES_HOLD_RAYS) {
+    if (rays_enter(i)) {
         // From the surface inward the way is a whole chord: it is certain to end on the sphere.
         bool through = own && ray.inward;
         exact real chord = passage.along > real(0) ? real(2) * passage.along : real(0);
@@ -93,7 +101,10 @@ void meet_sphere(Ray ray, int i, inout Hit nearest)
         met = met || leaving;
         distance = through ? chord : (inside ? far_end : distance);
     }
-    take(met && comes_first(distance, material.tags.y, nearest), nearest, distance, i, leaving, shape, material);
+    bool closer = met && comes_first(distance, material.tags.y, nearest);
+    take(closer, nearest, distance, i, leaving, shape, material);
+    nearest.foot = closer ? passage.foot : nearest.foot;
+    nearest.half_chord = closer ? half_chord : nearest.half_chord;
 }
 
 // normal . v for plane i. Along an axis the other two products are zeros, which change no bit.
@@ -138,6 +149,8 @@ Hit nearest_hit(Ray ray)
     nearest.oren_nayar_b = 0.0;
     nearest.kind = KIND_MATTE;
     nearest.rank = 0;
+    nearest.foot = real3(0);
+    nearest.half_chord = real(0);
     [[unroll]] for (int i = 0; i < SPHERES; ++i)
         meet_sphere(ray, i, nearest);
     [[unroll]] for (int i = 0; i < PLANES; ++i)
@@ -153,10 +166,7 @@ void hit_point(Ray ray, Hit hit, out real3 point, out real3 facing_normal)
     if (hit.surface < SPHERES) {
         real3 center = real3(hit.shape.xyz);
         real radius = real(hit.shape.w);
-        exact real3 to_center = center - ray.origin;
-        Passage passage = pass_sphere(to_center, ray.direction, radius);
-        exact real half_chord = half_chord_of(passage);
-        exact real3 from_center = -(passage.foot + (hit.leaving ? -half_chord : half_chord) * ray.direction);
+        exact real3 from_center = -(hit.foot + (hit.leaving ? -hit.half_chord : hit.half_chord) * ray.direction);
         normal = unit(from_center);
         position = center + radius * normal;
     } else {
@@ -179,7 +189,7 @@ bool sphere_shadows(int i, real3 point, int surface, bool inward, real3 to_light
     Passage passage = pass_sphere(to_center, to_light, radius);
     bool own = surface == i;
     bool shadows = passage.along > real(0) && passage.half_chord_squared > real(0) && passage.along < distance;
-    if (GLASS || SPHERES_HOLD_RAYS || SPHERES_HOLD_LIGHTS) {
+    if (rays_enter(i) || SPHERES_HOLD_LIGHTS) {
         bool point_inside = own && inward;
         bool light_inside = false;
         if (SPHERES_HOLD_RAYS && get_sphere(i).surface.tags.z != 0 && !own)

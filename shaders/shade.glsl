@@ -72,12 +72,14 @@ real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout uint
 real3 direct_light(Matte matte, uint sample_index, uint seed, inout uint shadow_rays)
 {
     exact real3 sum = real3(0);
-    [[unroll]] for (int i = 0; i < POINT_LIGHTS; ++i) {
-        real3 to_light;
-        real irradiance = point_irradiance(matte, real3(get_point_light(i).position.xyz), to_light, shadow_rays);
-        sum = sum + irradiance * real3(get_point_light(i).intensity.xyz);
-    }
-    [[unroll]] for (int i = 0; i < QUAD_LIGHTS; ++i)
-        sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), shadow_rays);
+    if (POINT_LIGHTS > 0)
+        [[unroll]] for (int i = 0; i < POINT_LIGHTS; ++i) {
+            real3 to_light;
+            real irradiance = point_irradiance(matte, real3(get_point_light(i).position.xyz), to_light, shadow_rays);
+            sum = sum + irradiance * real3(get_point_light(i).intensity.xyz);
+        }
+    if (QUAD_LIGHTS > 0) // lavapipe runs the body of an empty loop once, masked
+        [[unroll]] for (int i = 0; i < QUAD_LIGHTS; ++i)
+            sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), shadow_rays);
     return sum;
 }

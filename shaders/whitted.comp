@@ -13,9 +13,10 @@
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(std430, set = 0, binding = 5) writeonly buffer Picture { real picture[]; }; // the tile, RGB
-layout(push_constant) uniform Tile {
-    uvec2 tile_origin, tile_size, image_size; // pixels
-};
+layout(push_constant) uniform TileBlock {
+    uvec2 origin, size, image_size; // pixels
+} tile;
+uvec2 tile_origin, tile_size, image_size;
 
 // A ray, what it counts for in the pixel, and the bounces it has behind it.
 struct Path {
@@ -29,27 +30,24 @@ const int STACK_ROOM = GLASS && MAX_BOUNCES > 0 ? MAX_BOUNCES : 1;
 const bool STACK_IN_REGISTERS = STACK_ROOM <= 8; // selects cost less than indexed memory on lavapipe
 real3 stack_origin[STACK_ROOM], stack_direction[STACK_ROOM];
 real stack_weight[STACK_ROOM];
-int stack_surface[STACK_ROOM], stack_bounces[STACK_ROOM];
-bool stack_inward[STACK_ROOM];
+int stack_state[STACK_ROOM]; // (surface * 2 + inward) * 1024 + bounces
 
 void store_pending(int i, Path path)
 {
     stack_origin[i] = path.ray.origin;
     stack_direction[i] = path.ray.direction;
-    stack_surface[i] = path.ray.surface;
-    stack_inward[i] = path.ray.inward;
     stack_weight[i] = path.weight;
-    stack_bounces[i] = path.bounces;
+    stack_state[i] = (path.ray.surface << 1 | int(path.ray.inward)) << 10 | path.bounces;
 }
 
 void load_pending(int i, inout Path path)
 {
     path.ray.origin = stack_origin[i];
     path.ray.direction = stack_direction[i];
-    path.ray.surface = stack_surface[i];
-    path.ray.inward = stack_inward[i];
     path.weight = stack_weight[i];
-    path.bounces = stack_bounces[i];
+    path.ray.surface = stack_state[i] >> 11;
+    path.ray.inward = (stack_state[i] >> 10 & 1) != 0;
+    path.bounces = stack_state[i] & 1023;
 }
 
 void push(Path path, inout int pending)
@@ -191,12 +189,8 @@ void trace(inout Pixel pixel, Path path)
     }
 }
 
-void main()
+real3 pixel_radiance(uvec2 position)
 {
-    hoist_scene();
-    uvec2 in_tile = gl_GlobalInvocationID.xy;
-    uvec2 position = tile_origin + in_tile;
-
     Pixel pixel = Pixel(real3(0), 0u, 0u, 0u, 0u, 0u);
     if (SAMPLES > 1 || QUAD_LIGHTS > 0)
         pixel.seed = hash(hash(position.x) + position.y);
@@ -214,13 +208,23 @@ void main()
         exact real3 mean = pixel.radiance / real(SAMPLES);
         pixel.radiance = mean;
     }
-
-    real3 value = pixel.radiance;
     if (COUNT_RAYS)
-        value = real3(real(SAMPLES), real(pixel.secondary_rays), real(pixel.shadow_rays));
-    if (any(greaterThanEqual(in_tile, tile_size)))
-        return;
-    uint base = (in_tile.y * tile_size.x + in_tile.x) * 3u;
-    for (uint c = 0u; c < 3u; ++c)
-        picture[base + c] = value[c] > real(SMALLEST_WEIGHT) ? value[c] : real(0);
+        return real3(real(SAMPLES), real(pixel.secondary_rays), real(pixel.shadow_rays));
+    return pixel.radiance;
+}
+
+void main()
+{
+    hoist_scene();
+    tile_origin = tile.origin;
+    tile_size = tile.size;
+    image_size = tile.image_size;
+    for (uint row = 0u; row < ROWS; ++row) {
+        uvec2 in_tile = uvec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * ROWS + row);
+        real3 radiance = pixel_radiance(tile_origin + in_tile);
+        uint base = (in_tile.y * tile_size.x + in_tile.x) * 3u;
+        if (all(lessThan(in_tile, tile_size)))
+            for (uint c = 0u; c < 3u; ++c)
+                picture[base + c] = radiance[c] > real(SMALLEST_WEIGHT) ? radiance[c] : real(0);
+    }
 }
