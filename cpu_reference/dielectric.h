@@ -21,7 +21,8 @@ struct refraction {
 /* Snell's law and Fresnel's equations, eta = n1 / n2 and kappa = 1 - eta^2 given exactly by the scene. As
  * cos_out^2 - (eta cos_in)^2 = kappa, the difference eta cos_in - cos_out, which cancels for ior near 1, is
  * -kappa / (eta cos_in + cos_out), and r_p = r_s cos(i + o) / cos(i - o). */
-static inline struct refraction refract(struct vec3 direction, struct vec3 normal, real cos_in, real eta, real kappa)
+static inline struct refraction refract(struct vec3 direction, struct vec3 normal, real cos_in, real eta,
+                                        real kappa)
 {
     struct refraction refraction = {.total = true};
     real eta_cos = eta * cos_in;

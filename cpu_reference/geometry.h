@@ -19,7 +19,7 @@ struct ray {
 struct hit {
     real distance;
     int surface;
-    bool leaving; /* met from the inside of a sphere or the glass side of a transparent plane */
+    bool leaving;              /* met from the inside of a sphere or the glass side of a transparent plane */
     struct vec3 point, normal; /* unit normal, facing the ray */
     const PackedSurface *material;
 };
@@ -68,8 +68,8 @@ static inline bool meet_sphere(const struct PackedSphere *sphere, int surface, c
     return passage.along > 0 && passage.half_chord_squared > 0;
 }
 
-static inline bool meet_plane(const struct PackedPlane *plane, int surface, const struct ray *ray, real *distance,
-                              bool *leaving)
+static inline bool meet_plane(const struct PackedPlane *plane, int surface, const struct ray *ray,
+                              real *distance, bool *leaving)
 {
     if (ray->surface == surface)
         return false;
@@ -118,7 +118,8 @@ static inline bool find_hit(const struct packed_scene *scene, const struct ray *
         bool leaving;
         bool met = plane < 0 ? meet_sphere(&scene->spheres[i], i, ray, &distance, &leaving)
                              : meet_plane(&scene->planes[plane], i, ray, &distance, &leaving);
-        const PackedSurface *material = plane < 0 ? &scene->spheres[i].surface : &scene->planes[plane].surface;
+        const PackedSurface *material =
+            plane < 0 ? &scene->spheres[i].surface : &scene->planes[plane].surface;
         if (met && (distance < nearest->distance ||
                     (distance == nearest->distance && nearest->surface != NO_SURFACE &&
                      material->tags.y < nearest->material->tags.y))) {
@@ -142,7 +143,8 @@ struct segment {
     bool inward; /* on the inner side of that sphere */
 };
 
-static inline bool sphere_blocks(const struct PackedSphere *sphere, int surface, const struct segment *segment)
+static inline bool sphere_blocks(const struct PackedSphere *sphere, int surface,
+                                 const struct segment *segment)
 {
     bool own = segment->surface == surface;
     if (own && !segment->inward)

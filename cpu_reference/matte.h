@@ -13,9 +13,9 @@ struct matte_point {
     real cos_out; /* of the angle between normal and the way back */
 };
 
-/* Oren-Nayar without albedo / pi, times cos_in: Oren and Nayar, "Generalization of Lambert's Reflectance Model",
- * SIGGRAPH 1994; cos(phi_i - phi_o) sin alpha tan beta = s / max(cos_in, cos_out) with s = to_light . to_eye - cos_in
- * cos_out, where s > 0. */
+/* Oren-Nayar without albedo / pi, times cos_in: Oren and Nayar, "Generalization of Lambert's Reflectance
+ * Model", SIGGRAPH 1994; cos(phi_i - phi_o) sin alpha tan beta = s / max(cos_in, cos_out) with s = to_light .
+ * to_eye - cos_in cos_out, where s > 0. */
 static inline real oren_nayar(real a, real b, struct vec3 to_light, struct vec3 ray_direction, real cos_in,
                               real cos_out)
 {
@@ -24,10 +24,10 @@ static inline real oren_nayar(real a, real b, struct vec3 to_light, struct vec3 
     return (a + b * (s > 0 ? s / larger_cos : 0)) * cos_in;
 }
 
-/* The light point's share of radiance per unit of intensity and of albedo / pi: 0 if it is behind the surface or
- * hidden. *to_light is the unit direction to it. */
-static inline real receive(const struct packed_scene *scene, const struct matte_point *matte, struct vec3 light,
-                           struct vec3 *to_light, uint64_t *shadow_rays)
+/* The light point's share of radiance per unit of intensity and of albedo / pi: 0 if it is behind the surface
+ * or hidden. *to_light is the unit direction to it. */
+static inline real receive(const struct packed_scene *scene, const struct matte_point *matte,
+                           struct vec3 light, struct vec3 *to_light, uint64_t *shadow_rays)
 {
     const struct hit *hit = matte->hit;
     struct vec3 way = subtract(light, hit->point);
@@ -57,8 +57,8 @@ static inline real receive(const struct packed_scene *scene, const struct matte_
 }
 
 static inline struct vec3 receive_quad(const struct packed_scene *scene, const struct matte_point *matte,
-                                       const struct PackedQuadLight *quad, uint32_t seed, uint32_t pixel_sample,
-                                       uint64_t *shadow_rays)
+                                       const struct PackedQuadLight *quad, uint32_t seed,
+                                       uint32_t pixel_sample, uint64_t *shadow_rays)
 {
     struct vec3 edge_u = vector_of(quad->edge_u), edge_v = vector_of(quad->edge_v);
     real sum = 0;
@@ -76,8 +76,9 @@ static inline struct vec3 receive_quad(const struct packed_scene *scene, const s
 }
 
 /* Radiance that the matte hit sends back along the ray. */
-static inline struct vec3 reflect_lights(const struct packed_scene *scene, const struct ray *ray, const struct hit *hit,
-                                         uint32_t seed, uint32_t pixel_sample, uint64_t *shadow_rays)
+static inline struct vec3 reflect_lights(const struct packed_scene *scene, const struct ray *ray,
+                                         const struct hit *hit, uint32_t seed, uint32_t pixel_sample,
+                                         uint64_t *shadow_rays)
 {
     struct matte_point matte = {ray, hit, -dot(hit->normal, ray->direction)};
     struct vec3 sum = {0, 0, 0};

@@ -14,9 +14,9 @@ struct reference_window {
     int x, y, width, height;
 };
 
-/* Traces the window of the scene's picture in float, double or binary128, on so many threads, and writes linear
- * RGB radiance, rounded to double, row by row from the top: 3 * width * height values. Adds the rays it traced to
- * *rays. The float build computes what the shader does in exact mode, operation by operation. */
+/* Traces the window of the scene's picture in float, double or binary128, on so many threads, and writes
+ * linear RGB radiance, rounded to double, row by row from the top: 3 * width * height values. Adds the rays
+ * it traced to *rays. The float build computes what the shader does in exact mode, operation by operation. */
 void reference_render_float(const struct packed_scene *scene, struct reference_window window, int threads,
                             double *rgb, struct reference_rays *rays);
 void reference_render_double(const struct packed_scene *scene, struct reference_window window, int threads,

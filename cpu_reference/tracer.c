@@ -1,5 +1,5 @@
-/* Whitted's recursion as the textbook writes it ("An Improved Illumination Model for Shaded Display", CACM 23(6),
- * 1980). Built once for each precision, with REFERENCE_BITS and the entry's name REFERENCE_RENDER. */
+/* Whitted's recursion as the textbook writes it ("An Improved Illumination Model for Shaded Display", CACM
+ * 23(6), 1980). Built once for each precision, with REFERENCE_BITS and the entry's name REFERENCE_RENDER. */
 #include "dielectric.h"
 #include "geometry.h"
 #include "matte.h"
@@ -114,8 +114,8 @@ static double flush_small(real x)
     return x > (real)SMALLEST_WEIGHT ? (double)x : 0.0;
 }
 
-void REFERENCE_RENDER(const struct packed_scene *scene, struct reference_window window, int threads, double *rgb,
-                      struct reference_rays *rays)
+void REFERENCE_RENDER(const struct packed_scene *scene, struct reference_window window, int threads,
+                      double *rgb, struct reference_rays *rays)
 {
     uint64_t primary = 0, secondary = 0, shadow = 0;
 #pragma omp parallel for schedule(dynamic) num_threads(threads) reduction(+ : primary, secondary, shadow)

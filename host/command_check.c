@@ -20,11 +20,12 @@ static enum status report(const struct options *options, const char *scene, cons
     printf("%s: %zu of %zu pixels differ, max error %.9g @ (%u, %u, %s)%s\n", scene, comparison->differing,
            (size_t)image->width * image->height, comparison->max_error, comparison->x, comparison->y,
            channels[comparison->channel], agrees ? "" : "  DIFFERS");
-    json_t *result = json_pack("{s:s, s:b, s:i, s:i, s:I, s:I, s:f, s:{s:i, s:i, s:s}}", "scene", scene, "agrees",
-                               agrees, "width", (int)image->width, "height", (int)image->height, "differing_pixels",
-                               (json_int_t)comparison->differing, "bit_differing_pixels",
-                               (json_int_t)comparison->bit_differing, "max_error", comparison->max_error, "at", "x",
-                               (int)comparison->x, "y", (int)comparison->y, "channel", channels[comparison->channel]);
+    json_t *result =
+        json_pack("{s:s, s:b, s:i, s:i, s:I, s:I, s:f, s:{s:i, s:i, s:s}}", "scene", scene, "agrees", agrees,
+                  "width", (int)image->width, "height", (int)image->height, "differing_pixels",
+                  (json_int_t)comparison->differing, "bit_differing_pixels",
+                  (json_int_t)comparison->bit_differing, "max_error", comparison->max_error, "at", "x",
+                  (int)comparison->x, "y", (int)comparison->y, "channel", channels[comparison->channel]);
     if (json_array_append_new(results, result) != 0) {
         log_error("no memory for the result of %s", scene);
         return STATUS_UNABLE;
@@ -47,8 +48,8 @@ static enum status compare_renderings(const struct options *options, const char 
     return status;
 }
 
-static enum status check_scene(const struct options *options, struct vulkan_context *context, const char *scene,
-                               json_t *results)
+static enum status check_scene(const struct options *options, struct vulkan_context *context,
+                               const char *scene, json_t *results)
 {
     struct job job;
     struct rendering device, reference;

@@ -3,8 +3,9 @@
 
 #include "options.h"
 
-/* vkwhitted check: every scene on the device and with the reference's float build. STATUS_DIFFERS where more than
- * the allowed number of pixels disagree. A scene that cannot be compared does not keep the others from it. */
+/* vkwhitted check: every scene on the device and with the reference's float build. STATUS_DIFFERS where more
+ * than the allowed number of pixels disagree. A scene that cannot be compared does not keep the others from
+ * it. */
 enum status command_check(const struct options *options);
 
 #endif

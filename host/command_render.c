@@ -16,8 +16,8 @@ static enum status check_outputs(const struct options *options)
     return status;
 }
 
-static enum status write_outputs(const struct options *options, const struct job *job, const struct rendering *rendering,
-                                 const char *device)
+static enum status write_outputs(const struct options *options, const struct job *job,
+                                 const struct rendering *rendering, const char *device)
 {
     const struct image_metadata metadata = {
         .transfer = options->transfer,
@@ -33,8 +33,9 @@ static enum status write_outputs(const struct options *options, const struct job
     return status;
 }
 
-static enum status write_stats(const struct options *options, const struct job *job, const struct rendering *rendering,
-                               const char *device, const char *driver, double write_ms)
+static enum status write_stats(const struct options *options, const struct job *job,
+                               const struct rendering *rendering, const char *device, const char *driver,
+                               double write_ms)
 {
     const struct reference_rays *rays = &rendering->rays;
     double total = (double)(rays->primary + rays->secondary + rays->shadow);
@@ -42,11 +43,12 @@ static enum status write_stats(const struct options *options, const struct job *
         "{s:s, s:s, s:s, s:i, s:i, s:s, s:s, s:i, s:i, s:i, s:f, s:f, s:f, s:f, s:{s:I, s:I, s:I}, s:f}",
         "scene", options->scenes[0], "device", device, "driver", driver, "width", (int)job->plan.window.width,
         "height", (int)job->plan.window.height, "precision", precision_name(options->precision), "mode",
-        options->fast ? "fast" : "exact", "max_bounces", (int)job->max_bounces, "samples", job->packed.samples,
-        "light_samples", job->packed.light_samples, "setup_ms", rendering->setup_ms, "first_dispatch_ms",
-        rendering->first_dispatch_ms, "dispatch_ms", rendering->dispatch_ms, "write_ms", write_ms, "rays", "primary",
-        (json_int_t)rays->primary, "secondary", (json_int_t)rays->secondary, "shadow", (json_int_t)rays->shadow,
-        "rays_per_second", rendering->dispatch_ms > 0 ? total / rendering->dispatch_ms * 1000 : 0);
+        options->fast ? "fast" : "exact", "max_bounces", (int)job->max_bounces, "samples",
+        job->packed.samples, "light_samples", job->packed.light_samples, "setup_ms", rendering->setup_ms,
+        "first_dispatch_ms", rendering->first_dispatch_ms, "dispatch_ms", rendering->dispatch_ms, "write_ms",
+        write_ms, "rays", "primary", (json_int_t)rays->primary, "secondary", (json_int_t)rays->secondary,
+        "shadow", (json_int_t)rays->shadow, "rays_per_second",
+        rendering->dispatch_ms > 0 ? total / rendering->dispatch_ms * 1000 : 0);
     return json_write(stats, options->stats);
 }
 

@@ -9,8 +9,8 @@ static enum status choose_window(const struct options *options, const struct pic
     *window = options->crop;
     if (window->x + window->width <= settings->width && window->y + window->height <= settings->height)
         return STATUS_DONE;
-    log_error("--crop %u,%u,%u,%u: expected a part of the picture of %ux%u", window->x, window->y, window->width,
-              window->height, settings->width, settings->height);
+    log_error("--crop %u,%u,%u,%u: expected a part of the picture of %ux%u", window->x, window->y,
+              window->width, window->height, settings->width, settings->height);
     return STATUS_REFUSED;
 }
 

@@ -130,7 +130,8 @@ static enum status read_number(int id, const char *argument, unsigned least, uns
 }
 
 /* The index of the argument among `names`. */
-static enum status read_choice(int id, const char *argument, const char *const *names, size_t count, unsigned *choice)
+static enum status read_choice(int id, const char *argument, const char *const *names, size_t count,
+                               unsigned *choice)
 {
     for (size_t i = 0; i < count; ++i)
         if (strcmp(argument, names[i]) == 0) {
@@ -158,7 +159,8 @@ static enum status read_crop(int id, const char *argument, struct options *optio
 {
     unsigned crop[4];
     if (!parse_list(argument, ',', 4, SCENE_MAX_SIZE, crop) || crop[2] == 0 || crop[3] == 0)
-        return refuse(id, argument, "X,Y,WIDTH,HEIGHT in pixels from the top left, width and height at least 1");
+        return refuse(id, argument,
+                      "X,Y,WIDTH,HEIGHT in pixels from the top left, width and height at least 1");
     options->has_crop = true;
     options->crop = (struct window){crop[0], crop[1], crop[2], crop[3]};
     return STATUS_DONE;
@@ -170,7 +172,8 @@ static enum status read_tolerance(int id, const char *argument, struct options *
     size_t length = comma ? (size_t)(comma - argument) : strlen(argument);
     struct tolerance tolerance = {0, 0};
     if (!parse_double(argument, length, &tolerance.absolute) || tolerance.absolute < 0 ||
-        (comma && (!parse_double(comma + 1, strlen(comma + 1), &tolerance.relative) || tolerance.relative < 0)))
+        (comma &&
+         (!parse_double(comma + 1, strlen(comma + 1), &tolerance.relative) || tolerance.relative < 0)))
         return refuse(id, argument, "ABSOLUTE or ABSOLUTE,RELATIVE, not negative");
     options->has_tolerance = true;
     options->tolerance = tolerance;

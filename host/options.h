@@ -38,8 +38,8 @@ struct options {
     bool quiet;
 };
 
-/* Reads the command line; owns options->outputs, freed with options_destroy(). STATUS_REFUSED (reported) if it is
- * wrong. *finished is set where --help or --version has been answered and nothing is left to do. */
+/* Reads the command line; owns options->outputs, freed with options_destroy(). STATUS_REFUSED (reported) if
+ * it is wrong. *finished is set where --help or --version has been answered and nothing is left to do. */
 enum status options_read(int argc, char **argv, struct options *options, bool *finished);
 void options_destroy(struct options *options);
 

@@ -108,7 +108,8 @@ static PackedSurface pack_surface(const struct scene *scene, const struct scene_
     case MATERIAL_TRANSPARENT:
         surface.tags.x = KIND_TRANSPARENT;
         surface.parameters.x = to_float(1 / material->ior);
-        surface.parameters.y = to_float((material->ior - 1) * (material->ior + 1) / (material->ior * material->ior));
+        surface.parameters.y =
+            to_float((material->ior - 1) * (material->ior + 1) / (material->ior * material->ior));
         surface.parameters.z = to_float(material->ior);
         surface.parameters.w = to_float((1 - material->ior) * (1 + material->ior));
         break;
@@ -169,7 +170,8 @@ static enum status pack_point_light(struct packing *packing, const struct scene_
     struct dvec3 intensity =
         dvec3_scale(light->power * packing->scale * packing->scale, dvec3_of(light->color));
     if (dvec3_largest(intensity) > brightest) {
-        log_error("%s:%d:%d: point light: color times power must be at most %g times the square of the scene's extent",
+        log_error("%s:%d:%d: point light: color times power must be at most %g times the square of the "
+                  "scene's extent",
                   packing->scene->path, light->place.line, light->place.column, brightest);
         return STATUS_REFUSED;
     }
@@ -200,8 +202,7 @@ static enum status pack_quad_light(struct packing *packing, const struct scene_l
     }
     for (int i = 0; i < packed->plane_count; ++i)
         for (int k = 0; k < 4; ++k) {
-            struct dvec3 point =
-                dvec3_add(corner, dvec3_add(dvec3_scale(k & 1, u), dvec3_scale(k >> 1, v)));
+            struct dvec3 point = dvec3_add(corner, dvec3_add(dvec3_scale(k & 1, u), dvec3_scale(k >> 1, v)));
             if (plane_height(&packed->planes[i], point) < -resolution)
                 packed->planes[i].surface.tags.z = 1;
         }
@@ -265,7 +266,8 @@ static bool holds_lights(const struct packed_scene *packed, const struct PackedS
     return false;
 }
 
-static void warn_overlap(const struct packing *packing, const struct scene_object *a, const struct scene_object *b)
+static void warn_overlap(const struct packing *packing, const struct scene_object *a,
+                         const struct scene_object *b)
 {
     log_warning("%s:%d:%d: transparent bodies \"%s\" and \"%s\" overlap, which the model does not cover",
                 packing->scene->path, b->place.line, b->place.column, a->name, b->name);
@@ -281,7 +283,8 @@ static void warn_of_overlaps(const struct packing *packing)
         for (int k = 0; k < i; ++k) {
             layout_vec4 b = packed->spheres[k].center_radius;
             if (packed->spheres[k].surface.tags.x == KIND_TRANSPARENT &&
-                reaches_into(dvec3_length(dvec3_subtract(from_vec4(a), from_vec4(b))) - (double)b.w, (double)a.w))
+                reaches_into(dvec3_length(dvec3_subtract(from_vec4(a), from_vec4(b))) - (double)b.w,
+                             (double)a.w))
                 warn_overlap(packing, packing->sphere_sources[k], packing->sphere_sources[i]);
         }
         for (int k = 0; k < packed->plane_count; ++k)

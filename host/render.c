@@ -29,8 +29,8 @@ static enum status render_repeatedly(render_once *render, void *renderer, const 
                                      struct rendering *rendering)
 {
     double *warm_ms = calloc(plan->repeat + 1, sizeof *warm_ms);
-    enum status status = warm_ms ? image_create(plan->window.width, plan->window.height, &rendering->image)
-                                 : STATUS_UNABLE;
+    enum status status =
+        warm_ms ? image_create(plan->window.width, plan->window.height, &rendering->image) : STATUS_UNABLE;
     struct progress progress;
     uint64_t pixels = (uint64_t)plan->window.width * plan->window.height;
     progress_start(&progress, "rendering", pixels * (plan->repeat + 1), plan->quiet);
@@ -61,11 +61,12 @@ static enum status count_rays(struct vulkan_context *context, const struct rende
     struct image counts = {0};
     struct progress progress;
     double unused_ms;
-    progress_start(&progress, "counting rays", (uint64_t)plan->window.width * plan->window.height, plan->quiet);
+    progress_start(&progress, "counting rays", (uint64_t)plan->window.width * plan->window.height,
+                   plan->quiet);
     enum status status = image_create(plan->window.width, plan->window.height, &counts);
     if (status == STATUS_DONE)
-        status = tracer_create(context, plan->scene, &(struct tracer_options){.fast = plan->fast, .count_rays = true},
-                               &tracer);
+        status = tracer_create(context, plan->scene,
+                               &(struct tracer_options){.fast = plan->fast, .count_rays = true}, &tracer);
     if (status == STATUS_DONE)
         status = tracer_render(tracer, plan->window, &counts, &progress, &unused_ms);
     progress_end(&progress);
@@ -118,7 +119,8 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
     *milliseconds = 0;
     for (unsigned y = 0; y < window->height && !interrupt_requested(); y += band_height) {
         unsigned height = window->height - y < band_height ? window->height - y : band_height;
-        struct reference_window part = {(int)window->x, (int)(window->y + y), (int)window->width, (int)height};
+        struct reference_window part = {(int)window->x, (int)(window->y + y), (int)window->width,
+                                        (int)height};
         double start = clock_ms();
         switch (plan->precision) {
         case PRECISION_FLOAT:

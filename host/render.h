@@ -27,12 +27,12 @@ struct rendering {
     struct image image; /* the window */
     double setup_ms;    /* pipeline and upload; 0 on the CPU */
     double first_dispatch_ms;
-    double dispatch_ms; /* median of the warm renderings, or the first if there are none */
+    double dispatch_ms;         /* median of the warm renderings, or the first if there are none */
     struct reference_rays rays; /* all 0 unless counted */
 };
 
-/* On STATUS_DONE the caller frees rendering->image; otherwise there is none and the reason is reported, except for
- * STATUS_INTERRUPTED. */
+/* On STATUS_DONE the caller frees rendering->image; otherwise there is none and the reason is reported,
+ * except for STATUS_INTERRUPTED. */
 enum status render_on_device(struct vulkan_context *context, const struct render_plan *plan,
                              struct rendering *rendering);
 enum status render_on_cpu(const struct render_plan *plan, struct rendering *rendering);

@@ -72,7 +72,7 @@ static enum status read_open_file(const char *path, int file, struct scene *scen
 
 enum status scene_read(const char *path, struct scene *scene)
 {
-    *scene = (struct scene){ 0 };
+    *scene = (struct scene){0};
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY);
     if (file < 0)
         return refuse(path, strerror(errno));
@@ -91,5 +91,5 @@ void scene_destroy(struct scene *scene)
     free(scene->materials);
     free(scene->objects);
     free(scene->lights);
-    *scene = (struct scene){ 0 };
+    *scene = (struct scene){0};
 }

@@ -35,7 +35,7 @@ void report_error(struct scene_report *report, struct scene_place place, const c
     size_t at = report->kept++;
     for (; at > 0 && precedes(place, report->errors[at - 1].place); at--)
         report->errors[at] = report->errors[at - 1];
-    report->errors[at] = (struct scene_error){ .place = place, .message = message };
+    report->errors[at] = (struct scene_error){.place = place, .message = message};
 }
 
 /* The line's first byte and its length without the line break; "" for a line that is not there. */

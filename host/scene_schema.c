@@ -88,7 +88,7 @@ static void report_key(struct scene_report *report, const struct schema *schema,
 
 static void find_keys(struct scene_report *report, const struct schema *schema, struct mapping *mapping)
 {
-    int first_lines[SCHEMA_MAX_FIELDS] = { 0 };
+    int first_lines[SCHEMA_MAX_FIELDS] = {0};
     for (const struct yaml_node *key = mapping->node->child; key && key->next; key = key->next->next) {
         size_t i = 0;
         while (i < schema->field_count && !text_is(key, schema->fields[i].name))
@@ -227,7 +227,7 @@ static bool read_field(struct scene_report *report, const struct schema *schema,
 void schema_read(struct scene_report *report, const struct schema *schema, const struct yaml_node *node,
                  void *item, struct mapping *mapping)
 {
-    *mapping = (struct mapping){ .node = node, .type = -1 };
+    *mapping = (struct mapping){.node = node, .type = -1};
     if (node->type == YAML_BROKEN)
         return;
     if (node->type != YAML_MAPPING) {

@@ -13,94 +13,92 @@
 /* Sine of the angle under which two directions count as parallel: some 10 units in float's last place. */
 #define LEAST_SINE 1e-6
 
-static const struct bound coordinate[] = { { -MOST, MOST, false, "within -1e15..1e15" }, { .rule = NULL } };
-static const struct bound positive_length[] = { { 0, INFINITY, true, "> 0" },
-                                                { LEAST_LENGTH, MOST, false, "within 1e-15..1e15" },
-                                                { .rule = NULL } };
-static const struct bound field_of_view[] = { { 0, 180, true, "> 0 and < 180 degrees" }, { .rule = NULL } };
-static const struct bound refraction[] = { { 0, INFINITY, true, "> 0" },
-                                           { 1e-3, 1e3, false, "within 0.001..1000" },
-                                           { .rule = NULL } };
-static const struct bound albedo[] = { { 0, 1, false, "within 0..1" }, { .rule = NULL } };
-static const struct bound amount[] = { { 0, MOST, false, "within 0..1e15" }, { .rule = NULL } };
-static const struct bound picture_side[] = { { 1, SCENE_MAX_SIZE, false, "" }, { .rule = NULL } };
-static const struct bound bounce_count[] = { { 0, SCENE_MAX_BOUNCES, false, "" }, { .rule = NULL } };
-static const struct bound sample_count[] = { { 1, SCENE_MAX_SAMPLES, false, "" }, { .rule = NULL } };
+static const struct bound coordinate[] = {{-MOST, MOST, false, "within -1e15..1e15"}, {.rule = NULL}};
+static const struct bound positive_length[] = {
+    {0, INFINITY, true, "> 0"}, {LEAST_LENGTH, MOST, false, "within 1e-15..1e15"}, {.rule = NULL}};
+static const struct bound field_of_view[] = {{0, 180, true, "> 0 and < 180 degrees"}, {.rule = NULL}};
+static const struct bound refraction[] = {
+    {0, INFINITY, true, "> 0"}, {1e-3, 1e3, false, "within 0.001..1000"}, {.rule = NULL}};
+static const struct bound albedo[] = {{0, 1, false, "within 0..1"}, {.rule = NULL}};
+static const struct bound amount[] = {{0, MOST, false, "within 0..1e15"}, {.rule = NULL}};
+static const struct bound picture_side[] = {{1, SCENE_MAX_SIZE, false, ""}, {.rule = NULL}};
+static const struct bound bounce_count[] = {{0, SCENE_MAX_BOUNCES, false, ""}, {.rule = NULL}};
+static const struct bound sample_count[] = {{1, SCENE_MAX_SAMPLES, false, ""}, {.rule = NULL}};
 
 #define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
 #define FIELDS(array) .fields = (array), .field_count = COUNT_OF(array)
 
 enum { SCENE_CAMERA, SCENE_IMAGE, SCENE_MATERIALS, SCENE_OBJECTS, SCENE_LIGHTS };
 static const struct field scene_fields[] = {
-    { "camera", FIELD_NODE, true, 0, 0, NULL },
-    { "image", FIELD_NODE, true, 0, 0, NULL },
-    { "materials", FIELD_NODE, false, 0, 0, NULL },
-    { "objects", FIELD_NODE, false, 0, 0, NULL },
-    { "lights", FIELD_NODE, false, 0, 0, NULL },
-    { "background", FIELD_VECTOR, false, 0, offsetof(struct scene, background), amount },
-    { "max_bounces", FIELD_COUNT, false, 0, offsetof(struct scene, max_bounces), bounce_count },
-    { "light_samples", FIELD_COUNT, false, 0, offsetof(struct scene, light_samples), sample_count },
+    {"camera", FIELD_NODE, true, 0, 0, NULL},
+    {"image", FIELD_NODE, true, 0, 0, NULL},
+    {"materials", FIELD_NODE, false, 0, 0, NULL},
+    {"objects", FIELD_NODE, false, 0, 0, NULL},
+    {"lights", FIELD_NODE, false, 0, 0, NULL},
+    {"background", FIELD_VECTOR, false, 0, offsetof(struct scene, background), amount},
+    {"max_bounces", FIELD_COUNT, false, 0, offsetof(struct scene, max_bounces), bounce_count},
+    {"light_samples", FIELD_COUNT, false, 0, offsetof(struct scene, light_samples), sample_count},
 };
-static const struct schema scene_schema = { .label = "", FIELDS(scene_fields) };
+static const struct schema scene_schema = {.label = "", FIELDS(scene_fields)};
 
 enum { CAMERA_POSITION, CAMERA_LOOK_AT, CAMERA_UP };
 static const struct field camera_fields[] = {
-    { "position", FIELD_VECTOR, true, 0, offsetof(struct scene_camera, position), coordinate },
-    { "look_at", FIELD_VECTOR, true, 0, offsetof(struct scene_camera, look_at), coordinate },
-    { "up", FIELD_VECTOR, false, 0, offsetof(struct scene_camera, up), NULL },
-    { "fov_y", FIELD_NUMBER, false, 0, offsetof(struct scene_camera, fov_y_degrees), field_of_view },
+    {"position", FIELD_VECTOR, true, 0, offsetof(struct scene_camera, position), coordinate},
+    {"look_at", FIELD_VECTOR, true, 0, offsetof(struct scene_camera, look_at), coordinate},
+    {"up", FIELD_VECTOR, false, 0, offsetof(struct scene_camera, up), NULL},
+    {"fov_y", FIELD_NUMBER, false, 0, offsetof(struct scene_camera, fov_y_degrees), field_of_view},
 };
-static const struct schema camera_schema = { .label = "camera", FIELDS(camera_fields) };
+static const struct schema camera_schema = {.label = "camera", FIELDS(camera_fields)};
 
 static const struct field image_fields[] = {
-    { "width", FIELD_COUNT, true, 0, offsetof(struct scene, width), picture_side },
-    { "height", FIELD_COUNT, true, 0, offsetof(struct scene, height), picture_side },
+    {"width", FIELD_COUNT, true, 0, offsetof(struct scene, width), picture_side},
+    {"height", FIELD_COUNT, true, 0, offsetof(struct scene, height), picture_side},
 };
-static const struct schema image_schema = { .label = "image", FIELDS(image_fields) };
+static const struct schema image_schema = {.label = "image", FIELDS(image_fields)};
 
-static const char *const material_types[] = { "matte", "mirror", "transparent" };
-static const char *const material_labels[] = { "matte material", "mirror material", "transparent material" };
+static const char *const material_types[] = {"matte", "mirror", "transparent"};
+static const char *const material_labels[] = {"matte material", "mirror material", "transparent material"};
 enum { MATTE = 1 << MATERIAL_MATTE, TRANSPARENT = 1 << MATERIAL_TRANSPARENT };
 static const struct field material_fields[] = {
-    { "name", FIELD_NAME, true, 0, offsetof(struct scene_material, name), NULL },
-    { "type", FIELD_TYPE, true, 0, 0, NULL },
-    { "color", FIELD_VECTOR, true, MATTE, offsetof(struct scene_material, color), albedo },
-    { "roughness", FIELD_NUMBER, false, MATTE, offsetof(struct scene_material, roughness), amount },
-    { "ior", FIELD_NUMBER, false, TRANSPARENT, offsetof(struct scene_material, ior), refraction },
+    {"name", FIELD_NAME, true, 0, offsetof(struct scene_material, name), NULL},
+    {"type", FIELD_TYPE, true, 0, 0, NULL},
+    {"color", FIELD_VECTOR, true, MATTE, offsetof(struct scene_material, color), albedo},
+    {"roughness", FIELD_NUMBER, false, MATTE, offsetof(struct scene_material, roughness), amount},
+    {"ior", FIELD_NUMBER, false, TRANSPARENT, offsetof(struct scene_material, ior), refraction},
 };
-static const struct schema material_schema = { "material", material_types, material_labels,
-                                               COUNT_OF(material_types), FIELDS(material_fields) };
+static const struct schema material_schema = {"material", material_types, material_labels,
+                                              COUNT_OF(material_types), FIELDS(material_fields)};
 
-static const char *const object_types[] = { "sphere", "plane" };
+static const char *const object_types[] = {"sphere", "plane"};
 enum { SPHERE = 1 << OBJECT_SPHERE, PLANE = 1 << OBJECT_PLANE };
 enum { OBJECT_NAME, OBJECT_MATERIAL = 2, OBJECT_NORMAL = 6 };
 static const struct field object_fields[] = {
-    { "name", FIELD_NAME, true, 0, offsetof(struct scene_object, name), NULL },
-    { "type", FIELD_TYPE, true, 0, 0, NULL },
-    { "material", FIELD_NODE, true, 0, 0, NULL },
-    { "center", FIELD_VECTOR, true, SPHERE, offsetof(struct scene_object, sphere.center), coordinate },
-    { "radius", FIELD_NUMBER, true, SPHERE, offsetof(struct scene_object, sphere.radius), positive_length },
-    { "point", FIELD_VECTOR, true, PLANE, offsetof(struct scene_object, plane.point), coordinate },
-    { "normal", FIELD_VECTOR, true, PLANE, offsetof(struct scene_object, plane.normal), NULL },
+    {"name", FIELD_NAME, true, 0, offsetof(struct scene_object, name), NULL},
+    {"type", FIELD_TYPE, true, 0, 0, NULL},
+    {"material", FIELD_NODE, true, 0, 0, NULL},
+    {"center", FIELD_VECTOR, true, SPHERE, offsetof(struct scene_object, sphere.center), coordinate},
+    {"radius", FIELD_NUMBER, true, SPHERE, offsetof(struct scene_object, sphere.radius), positive_length},
+    {"point", FIELD_VECTOR, true, PLANE, offsetof(struct scene_object, plane.point), coordinate},
+    {"normal", FIELD_VECTOR, true, PLANE, offsetof(struct scene_object, plane.normal), NULL},
 };
-static const struct schema object_schema = { "object", object_types, object_types, COUNT_OF(object_types),
-                                             FIELDS(object_fields) };
+static const struct schema object_schema = {"object", object_types, object_types, COUNT_OF(object_types),
+                                            FIELDS(object_fields)};
 
-static const char *const light_types[] = { "point", "quad" };
-static const char *const light_labels[] = { "point light", "quad light" };
+static const char *const light_types[] = {"point", "quad"};
+static const char *const light_labels[] = {"point light", "quad light"};
 enum { POINT = 1 << LIGHT_POINT, QUAD = 1 << LIGHT_QUAD };
 enum { LIGHT_U = 5, LIGHT_V };
 static const struct field light_fields[] = {
-    { "type", FIELD_TYPE, true, 0, 0, NULL },
-    { "color", FIELD_VECTOR, false, 0, offsetof(struct scene_light, color), amount },
-    { "power", FIELD_NUMBER, true, 0, offsetof(struct scene_light, power), amount },
-    { "position", FIELD_VECTOR, true, POINT, offsetof(struct scene_light, point.position), coordinate },
-    { "corner", FIELD_VECTOR, true, QUAD, offsetof(struct scene_light, quad.corner), coordinate },
-    { "u", FIELD_VECTOR, true, QUAD, offsetof(struct scene_light, quad.u), coordinate },
-    { "v", FIELD_VECTOR, true, QUAD, offsetof(struct scene_light, quad.v), coordinate },
+    {"type", FIELD_TYPE, true, 0, 0, NULL},
+    {"color", FIELD_VECTOR, false, 0, offsetof(struct scene_light, color), amount},
+    {"power", FIELD_NUMBER, true, 0, offsetof(struct scene_light, power), amount},
+    {"position", FIELD_VECTOR, true, POINT, offsetof(struct scene_light, point.position), coordinate},
+    {"corner", FIELD_VECTOR, true, QUAD, offsetof(struct scene_light, quad.corner), coordinate},
+    {"u", FIELD_VECTOR, true, QUAD, offsetof(struct scene_light, quad.u), coordinate},
+    {"v", FIELD_VECTOR, true, QUAD, offsetof(struct scene_light, quad.v), coordinate},
 };
-static const struct schema light_schema = { "light", light_types, light_labels, COUNT_OF(light_types),
-                                            FIELDS(light_fields) };
+static const struct schema light_schema = {"light", light_types, light_labels, COUNT_OF(light_types),
+                                           FIELDS(light_fields)};
 
 /* A name in the file and what it names. */
 struct named {
@@ -136,7 +134,7 @@ static bool are_parallel(const double a[3], const double b[3])
         p[i] = ldexp(a[i], -exponent_a);
         q[i] = ldexp(b[i], -exponent_b);
     }
-    double cross[3] = { p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0] };
+    double cross[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
     double cross_length = hypot(hypot(cross[0], cross[1]), cross[2]);
     double product = hypot(hypot(p[0], p[1]), p[2]) * hypot(hypot(q[0], q[1]), q[2]);
     return cross_length <= LEAST_SINE * product;
@@ -174,7 +172,7 @@ static void read_material(struct reading *reading, const struct yaml_node *node,
     schema_read(reading->report, &material_schema, node, material, &mapping);
     material->type = mapping.type < 0 ? MATERIAL_MATTE : (enum material_type)mapping.type;
     if (material->name)
-        reading->material_names[reading->material_name_count++] = (struct named){ mapping.values[0], index };
+        reading->material_names[reading->material_name_count++] = (struct named){mapping.values[0], index};
 }
 
 static int compare_text(const struct yaml_node *a, const struct yaml_node *b)
@@ -242,7 +240,7 @@ static void read_object(struct reading *reading, const struct yaml_node *node, s
     object->type = mapping.type < 0 ? OBJECT_SPHERE : (enum object_type)mapping.type;
     if (object->name)
         reading->object_names[reading->object_name_count++] =
-            (struct named){ mapping.values[OBJECT_NAME], index };
+            (struct named){mapping.values[OBJECT_NAME], index};
     find_material(reading, &mapping, object);
     if (mapping.type == OBJECT_PLANE && mapping.good[OBJECT_NORMAL] && is_zero(object->plane.normal))
         report_error(reading->report, mapping.values[OBJECT_NORMAL]->place, "%snormal must not be zero",
@@ -260,7 +258,7 @@ static void read_light(struct reading *reading, const struct yaml_node *node, si
     if (mapping.type != LIGHT_QUAD)
         return;
 
-    const double *edges[] = { light->quad.u, light->quad.v };
+    const double *edges[] = {light->quad.u, light->quad.v};
     bool good = true;
     for (size_t i = 0; i < 2; i++) {
         const size_t field = LIGHT_U + i;
@@ -331,7 +329,7 @@ static void read_lists(struct reading *reading, const struct mapping *top)
 
 static void read_root(struct scene_report *report, const struct yaml_node *root, struct scene *scene)
 {
-    struct reading reading = { .report = report, .scene = scene };
+    struct reading reading = {.report = report, .scene = scene};
     struct mapping top;
     schema_read(report, &scene_schema, root, scene, &top);
     if (top.values[SCENE_CAMERA])
@@ -353,17 +351,17 @@ enum status scene_read_text(const char *path, const char *text, size_t length, s
     }
     *scene = (struct scene){
         .path = strdup(path),
-        .camera = { .up = { 0, 1, 0 }, .fov_y_degrees = 60 },
+        .camera = {.up = {0, 1, 0}, .fov_y_degrees = 60},
         .max_bounces = 5,
         .light_samples = 32,
     };
-    struct scene_report report = { .path = path, .text = text, .length = length, .no_memory = !scene->path };
+    struct scene_report report = {.path = path, .text = text, .length = length, .no_memory = !scene->path};
     struct yaml_tree tree;
     yaml_parse(&report, &tree);
     if (tree.root)
         read_root(&report, tree.root, scene);
     else if (report.count == 0)
-        report_error(&report, (struct scene_place){ 1, 1 },
+        report_error(&report, (struct scene_place){1, 1},
                      "the file is empty; a scene needs \"camera\" and "
                      "\"image\"");
     yaml_free(&tree);

@@ -52,7 +52,7 @@ static void *tree_alloc(struct builder *builder, size_t size)
             builder->report->no_memory = true;
             return NULL;
         }
-        *block = (struct yaml_block){ .next = builder->tree->blocks, .size = room };
+        *block = (struct yaml_block){.next = builder->tree->blocks, .size = room};
         builder->tree->blocks = block;
     }
     void *memory = (char *)block->bytes + block->used;
@@ -131,7 +131,7 @@ static struct yaml_node *add_node(struct builder *builder, enum yaml_type type)
     struct yaml_node *node = tree_alloc(builder, sizeof(*node));
     if (!node)
         return NULL;
-    *node = (struct yaml_node){ .type = type, .place = builder->place };
+    *node = (struct yaml_node){.type = type, .place = builder->place};
     attach(builder, node);
     return node;
 }
@@ -146,7 +146,7 @@ static struct anchor *add_anchor(struct builder *builder, struct fy_token *token
         return NULL;
     }
     struct anchor *anchor = &builder->anchors[builder->anchor_count];
-    *anchor = (struct anchor){ 0 };
+    *anchor = (struct anchor){0};
     anchor->name = copy_text(builder, token, &anchor->length);
     if (!anchor->name)
         return NULL;
@@ -159,8 +159,7 @@ static void refuse_tag(struct builder *builder, struct fy_token *tag, struct yam
     if (!tag)
         return;
     const struct fy_mark *mark = fy_token_start_mark(tag);
-    struct scene_place place =
-        mark ? (struct scene_place){ mark->line + 1, mark->column + 1 } : builder->place;
+    struct scene_place place = mark ? (struct scene_place){mark->line + 1, mark->column + 1} : builder->place;
     report_error(builder->report, place, "scene files have no YAML tags (\"!...\")");
     node->type = YAML_BROKEN;
 }
@@ -234,7 +233,7 @@ static void open_collection(struct builder *builder, enum yaml_type type, struct
         builder->tree->root = NULL;
         return;
     }
-    builder->open[builder->depth++] = (struct open_collection){ .node = node, .anchor = anchor };
+    builder->open[builder->depth++] = (struct open_collection){.node = node, .anchor = anchor};
 }
 
 static void close_collection(struct builder *builder)
@@ -248,7 +247,7 @@ static void add_event(struct builder *builder, struct fy_event *event)
 {
     const struct fy_mark *mark = event->type == FYET_STREAM_END ? NULL : fy_event_start_mark(event);
     if (mark)
-        builder->place = (struct scene_place){ mark->line + 1, mark->column + 1 };
+        builder->place = (struct scene_place){mark->line + 1, mark->column + 1};
     builder->document_count += event->type == FYET_DOCUMENT_START;
     if (builder->document_count > 1 && (mark || event->type != FYET_DOCUMENT_START)) {
         report_error(builder->report, builder->place, "a second document; a scene file must hold one");
@@ -296,7 +295,7 @@ static size_t printable_character(const unsigned char *text, size_t length)
             return 0;
         code = code << 6 | (text[i] & 0x3FU);
     }
-    static const uint32_t least[] = { 0, 0, 0xA0, 0x800, 0x10000 };
+    static const uint32_t least[] = {0, 0, 0xA0, 0x800, 0x10000};
     bool surrogate = code >= 0xD800 && code < 0xE000;
     return code < least[size] || code > 0x10FFFF || surrogate || code == 0xFFFE || code == 0xFFFF ? 0 : size;
 }
@@ -304,7 +303,7 @@ static size_t printable_character(const unsigned char *text, size_t length)
 static bool check_characters(struct scene_report *report)
 {
     const unsigned char *text = (const unsigned char *)report->text;
-    struct scene_place place = { 1, 1 };
+    struct scene_place place = {1, 1};
     for (size_t at = 0, size; at < report->length; at += size) {
         size = printable_character(text + at, report->length - at);
         if (size == 0) {
@@ -313,7 +312,7 @@ static bool check_characters(struct scene_report *report)
         }
         place.column++;
         if (text[at] == '\n' || (text[at] == '\r' && (at + 1 == report->length || text[at + 1] != '\n')))
-            place = (struct scene_place){ place.line + 1, 1 };
+            place = (struct scene_place){place.line + 1, 1};
     }
     return true;
 }
@@ -346,7 +345,7 @@ static void report_syntax_errors(struct builder *builder, struct fy_diag *diag)
     for (struct fy_diag_error *error; (error = fy_diag_errors_iterate(diag, &previous));) {
         if (error->type != FYET_ERROR)
             continue;
-        report_error(builder->report, (struct scene_place){ error->line, error->column }, "YAML syntax: %s",
+        report_error(builder->report, (struct scene_place){error->line, error->column}, "YAML syntax: %s",
                      error->msg);
         any = true;
     }
@@ -357,11 +356,11 @@ static void report_syntax_errors(struct builder *builder, struct fy_diag *diag)
 
 void yaml_parse(struct scene_report *report, struct yaml_tree *tree)
 {
-    *tree = (struct yaml_tree){ 0 };
+    *tree = (struct yaml_tree){0};
     if (!check_characters(report))
         return;
 
-    struct builder builder = { .report = report, .tree = tree, .place = { 1, 1 } };
+    struct builder builder = {.report = report, .tree = tree, .place = {1, 1}};
     struct fy_diag *diag = create_diagnostic();
     struct fy_parser *parser =
         !diag ? NULL

@@ -14,15 +14,15 @@ static void print_message(const char *severity, const char *format, va_list argu
     funlockfile(stderr);
 }
 
-#define DEFINE_LOG(name, severity, least_verbosity)        \
-    void name(const char *format, ...)                     \
-    {                                                      \
-        if (log_verbosity < (least_verbosity))             \
-            return;                                        \
-        va_list arguments;                                 \
-        va_start(arguments, format);                       \
-        print_message(severity, format, arguments);        \
-        va_end(arguments);                                 \
+#define DEFINE_LOG(name, severity, least_verbosity)                                                          \
+    void name(const char *format, ...)                                                                       \
+    {                                                                                                        \
+        if (log_verbosity < (least_verbosity))                                                               \
+            return;                                                                                          \
+        va_list arguments;                                                                                   \
+        va_start(arguments, format);                                                                         \
+        print_message(severity, format, arguments);                                                          \
+        va_end(arguments);                                                                                   \
     }
 
 DEFINE_LOG(log_error, "error: ", -1)

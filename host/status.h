@@ -6,9 +6,9 @@
 /* What a command ends with; the values are the program's exit statuses. */
 enum status {
     STATUS_DONE = 0,
-    STATUS_DIFFERS = 1,  /* a check found a difference */
-    STATUS_REFUSED = 2,  /* bad usage or bad input */
-    STATUS_UNABLE = 3,   /* the machine could not do it: no device, no memory, disk full */
+    STATUS_DIFFERS = 1, /* a check found a difference */
+    STATUS_REFUSED = 2, /* bad usage or bad input */
+    STATUS_UNABLE = 3,  /* the machine could not do it: no device, no memory, disk full */
     STATUS_INTERRUPTED = 130,
 };
 

@@ -38,8 +38,8 @@ struct push_constants {
 struct specialization {
     uint32_t group_width, group_height;
     int32_t spheres, planes, point_lights, quad_lights, max_bounces, samples, light_samples;
-    VkBool32 mirrors, glass, glass_planes, rough, spheres_hold_rays, spheres_hold_lights, planes_shadow, mixed_order,
-        one_roughness;
+    VkBool32 mirrors, glass, glass_planes, rough, spheres_hold_rays, spheres_hold_lights, planes_shadow,
+        mixed_order, one_roughness;
     uint32_t plane_axes, rows, entered_spheres;
     VkBool32 count_rays;
 };
@@ -47,8 +47,8 @@ struct specialization {
 static void note_surface(struct specialization *constants, const struct packed_scene *scene,
                          const PackedSurface *surface)
 {
-    if (surface->tags.x == KIND_MATTE && (surface->parameters.w != scene->view.matte.x ||
-                                          surface->oren_nayar_b.x != scene->view.matte.y))
+    if (surface->tags.x == KIND_MATTE &&
+        (surface->parameters.w != scene->view.matte.x || surface->oren_nayar_b.x != scene->view.matte.y))
         constants->one_roughness = VK_FALSE;
     constants->mirrors |= surface->tags.x == KIND_MIRROR;
     constants->glass |= surface->tags.x == KIND_TRANSPARENT;
@@ -129,7 +129,8 @@ static enum status upload_scene(struct tracer *tracer, const struct packed_scene
         tracer->context, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
         (VkMemoryPropertyFlags[]){VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
                                       VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                                  VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0},
+                                  VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                                  0},
         &tracer->scene);
     if (status != STATUS_DONE)
         return status;
@@ -144,20 +145,22 @@ static enum status upload_scene(struct tracer *tracer, const struct packed_scene
 static enum status create_picture(struct tracer *tracer)
 {
     VkDeviceSize size = (VkDeviceSize)tracer->tile_pixels * CHANNELS * sizeof(float);
-    const VkMemoryPropertyFlags readable =
-        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    const VkMemoryPropertyFlags readable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                           VK_MEMORY_PROPERTY_HOST_COHERENT_BIT |
+                                           VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     enum status status = vulkan_buffer_create(
         tracer->context, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-        (VkMemoryPropertyFlags[]){VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | readable, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
-                                  0},
+        (VkMemoryPropertyFlags[]){VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | readable,
+                                  VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0},
         &tracer->picture);
-    tracer->bindings[PICTURE] = (VkDescriptorBufferInfo){.buffer = tracer->picture.buffer, .range = VK_WHOLE_SIZE};
+    tracer->bindings[PICTURE] =
+        (VkDescriptorBufferInfo){.buffer = tracer->picture.buffer, .range = VK_WHOLE_SIZE};
     if (status != STATUS_DONE || (tracer->picture.properties & readable) == readable)
         return status;
     return vulkan_buffer_create(
         tracer->context, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-        (VkMemoryPropertyFlags[]){readable, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                                  0},
+        (VkMemoryPropertyFlags[]){
+            readable, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0},
         &tracer->staging);
 }
 
@@ -299,8 +302,8 @@ static enum status create_commands(struct tracer *tracer)
                         .queryCount = 2,
                     },
                     NULL, &tracer->timestamps);
-    VULKAN_CALL(vkCreateFence, device, &(VkFenceCreateInfo){.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO}, NULL,
-                &tracer->fence);
+    VULKAN_CALL(vkCreateFence, device, &(VkFenceCreateInfo){.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO},
+                NULL, &tracer->fence);
     return STATUS_DONE;
 
 error:
@@ -385,16 +388,16 @@ static void record_barrier(VkCommandBuffer commands, VkPipelineStageFlags from, 
 static enum status record_tile(struct tracer *tracer, struct window tile)
 {
     const VkCommandBuffer commands = tracer->commands;
-    const struct push_constants constants = {tile.x,      tile.y, tile.width, tile.height, tracer->picture_width,
-                                             tracer->picture_height};
+    const struct push_constants constants = {
+        tile.x, tile.y, tile.width, tile.height, tracer->picture_width, tracer->picture_height};
     VULKAN_CALL(vkBeginCommandBuffer, commands,
                 &(VkCommandBufferBeginInfo){
                     .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                     .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
                 });
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->pipeline);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->pipeline_layout, 0, 1, &tracer->set, 0,
-                            NULL);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->pipeline_layout, 0, 1,
+                            &tracer->set, 0, NULL);
     vkCmdPushConstants(commands, tracer->pipeline_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
                        &constants);
     if (tracer->timestamps) {
@@ -445,8 +448,8 @@ static enum status dispatch_tile(struct tracer *tracer, struct window tile, doub
     VULKAN_CALL(vkResetFences, device, 1, &tracer->fence);
     if (tracer->timestamps) {
         uint64_t ticks[2];
-        VULKAN_CALL(vkGetQueryPoolResults, device, tracer->timestamps, 0, 2, sizeof ticks, ticks, sizeof *ticks,
-                    VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+        VULKAN_CALL(vkGetQueryPoolResults, device, tracer->timestamps, 0, 2, sizeof ticks, ticks,
+                    sizeof *ticks, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
         uint64_t mask = UINT64_MAX >> (64 - tracer->context->timestamp_bits);
         *dispatch_ms += (double)((ticks[1] - ticks[0]) & mask) *
                         (double)tracer->context->properties.limits.timestampPeriod * 1e-6;

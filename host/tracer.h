@@ -26,9 +26,9 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
                           const struct tracer_options *options, struct tracer **tracer);
 void tracer_destroy(struct tracer **tracer);
 
-/* Renders the window of the picture into image, which has the window's size. *dispatch_ms gets the time that the
- * device spent (device timestamps where it has them, otherwise from submission to completion). Advances progress,
- * whose unit is a pixel. STATUS_INTERRUPTED after Ctrl-C. */
+/* Renders the window of the picture into image, which has the window's size. *dispatch_ms gets the time that
+ * the device spent (device timestamps where it has them, otherwise from submission to completion). Advances
+ * progress, whose unit is a pixel. STATUS_INTERRUPTED after Ctrl-C. */
 enum status tracer_render(struct tracer *tracer, struct window window, struct image *image,
                           struct progress *progress, double *dispatch_ms);
 

@@ -12,8 +12,8 @@ static const char validation_layer[] = "VK_LAYER_KHRONOS_validation";
 
 const char *vulkan_result_name(VkResult result)
 {
-#define NAME(name) \
-    case name:     \
+#define NAME(name)                                                                                           \
+    case name:                                                                                               \
         return #name
     switch (result) {
         NAME(VK_ERROR_OUT_OF_HOST_MEMORY);
@@ -36,7 +36,8 @@ const char *vulkan_result_name(VkResult result)
 
 static VKAPI_ATTR VkBool32 VKAPI_CALL report_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                      VkDebugUtilsMessageTypeFlagsEXT types,
-                                                     const VkDebugUtilsMessengerCallbackDataEXT *data, void *user)
+                                                     const VkDebugUtilsMessengerCallbackDataEXT *data,
+                                                     void *user)
 {
     struct vulkan_context *context = user;
     (void)types;
@@ -68,8 +69,8 @@ static enum status create_instance(struct vulkan_context *context, bool validate
     }
     const VkDebugUtilsMessengerCreateInfoEXT messenger_info = {
         .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
-        .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
-                           VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+        .messageSeverity =
+            VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
         .messageType =
             VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
         .pfnUserCallback = report_message,
@@ -187,7 +188,8 @@ static uint32_t choose_device(const char *choice, const VkPhysicalDevice *device
         }
     }
     if (chosen == count && choice)
-        log_error("--device %s: no usable device of this number or name; 'vkwhitted devices' lists them", choice);
+        log_error("--device %s: no usable device of this number or name; 'vkwhitted devices' lists them",
+                  choice);
     else if (chosen == count)
         log_error("no device offers Vulkan 1.2 and a compute queue; 'vkwhitted devices' lists what is there");
     return chosen;
@@ -261,8 +263,9 @@ enum status vulkan_context_destroy(struct vulkan_context **pointer)
     if (context->device)
         vkDestroyDevice(context->device, NULL);
     if (context->messenger) {
-        PFN_vkDestroyDebugUtilsMessengerEXT destroy = (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
-            context->instance, "vkDestroyDebugUtilsMessengerEXT");
+        PFN_vkDestroyDebugUtilsMessengerEXT destroy =
+            (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(context->instance,
+                                                                       "vkDestroyDebugUtilsMessengerEXT");
         destroy(context->instance, context->messenger, NULL);
     }
     if (context->instance)
@@ -297,7 +300,9 @@ static void print_device(VkPhysicalDevice device, uint32_t index, bool chosen)
     printf("      driver          %s %s\n", driver.driverName, driver.driverInfo);
     printf("      Vulkan          %u.%u.%u%s\n", VK_API_VERSION_MAJOR(properties->apiVersion),
            VK_API_VERSION_MINOR(properties->apiVersion), VK_API_VERSION_PATCH(properties->apiVersion),
-           rank_device(device, properties) == 0 ? " (cannot be used: Vulkan 1.2 and a compute queue are needed)" : "");
+           rank_device(device, properties) == 0
+               ? " (cannot be used: Vulkan 1.2 and a compute queue are needed)"
+               : "");
     printf("      fp64            %s\n", features.shaderFloat64 ? "yes" : "no");
     printf("      storage buffer  %" PRIu32 " bytes\n", limits->maxStorageBufferRange);
     printf("      uniform buffer  %" PRIu32 " bytes\n", limits->maxUniformBufferRange);

@@ -26,29 +26,29 @@ struct vulkan_options {
     bool validate;      /* Khronos validation layer, core and synchronisation checks */
 };
 
-/* Opens a device. On failure *context is NULL and the reason is reported: STATUS_REFUSED for a device that does not
- * exist, STATUS_UNABLE for a machine without Vulkan or, with validate, without the layer. */
+/* Opens a device. On failure *context is NULL and the reason is reported: STATUS_REFUSED for a device that
+ * does not exist, STATUS_UNABLE for a machine without Vulkan or, with validate, without the layer. */
 enum status vulkan_context_create(const struct vulkan_options *options, struct vulkan_context **context);
 
-/* Destroys and sets *context to NULL. Returns STATUS_UNABLE if the validation layer has had anything to say, each
- * message having been reported, and STATUS_DONE otherwise. */
+/* Destroys and sets *context to NULL. Returns STATUS_UNABLE if the validation layer has had anything to say,
+ * each message having been reported, and STATUS_DONE otherwise. */
 enum status vulkan_context_destroy(struct vulkan_context **context);
 
-/* Prints the devices, their drivers and the limits that matter to standard output, with a * at the one that these
- * options choose. */
+/* Prints the devices, their drivers and the limits that matter to standard output, with a * at the one that
+ * these options choose. */
 enum status vulkan_print_devices(const struct vulkan_options *options);
 
 /* A VkResult's name. */
 const char *vulkan_result_name(VkResult result);
 
 /* Reports a failed call by its name and jumps to the function's error label. */
-#define VULKAN_CALL(function, ...)                                                       \
-    do {                                                                                 \
-        VkResult vulkan_result_ = function(__VA_ARGS__);                                 \
-        if (vulkan_result_ != VK_SUCCESS) {                                              \
-            log_error("%s: %s", #function, vulkan_result_name(vulkan_result_));          \
-            goto error;                                                                  \
-        }                                                                                \
+#define VULKAN_CALL(function, ...)                                                                           \
+    do {                                                                                                     \
+        VkResult vulkan_result_ = function(__VA_ARGS__);                                                     \
+        if (vulkan_result_ != VK_SUCCESS) {                                                                  \
+            log_error("%s: %s", #function, vulkan_result_name(vulkan_result_));                              \
+            goto error;                                                                                      \
+        }                                                                                                    \
     } while (0)
 
 #endif

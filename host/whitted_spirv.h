@@ -10,7 +10,8 @@ struct spirv {
     size_t size; /* bytes */
 };
 
-/* shaders/whitted.comp as compiled by the build: exact or fast, the scene in uniform or in storage buffers. */
+/* shaders/whitted.comp as compiled by the build: exact or fast, the scene in uniform or in storage buffers.
+ */
 struct spirv whitted_spirv(bool fast, bool scene_in_storage);
 
 #endif

@@ -76,11 +76,11 @@ struct PackedQuadLight {
 
 struct PackedView {
     LAYOUT_VEC4 position;
-    LAYOUT_VEC4 forward;       /* to the middle of the image plane at distance 1 */
+    LAYOUT_VEC4 forward;          /* to the middle of the image plane at distance 1 */
     LAYOUT_VEC4 half_pixel_right; /* on that plane */
     LAYOUT_VEC4 half_pixel_down;
     LAYOUT_VEC4 background; /* radiance */
-    LAYOUT_VEC4 matte; /* Oren-Nayar's A in x and B in y, where all matte surfaces share them */
+    LAYOUT_VEC4 matte;      /* Oren-Nayar's A in x and B in y, where all matte surfaces share them */
 };
 
 #endif

@@ -42,8 +42,8 @@ static int test_folder_teardown(void **state)
     return chdir("/") == 0 && rmdir(test_folder) == 0 ? 0 : -1;
 }
 
-/* Standard error goes into a pipe (64 KiB at most) between the two; the second returns how many lines were written
- * and puts the first of them (as much as fits) into line. */
+/* Standard error goes into a pipe (64 KiB at most) between the two; the second returns how many lines were
+ * written and puts the first of them (as much as fits) into line. */
 static int test_messages_fd, test_saved_stderr;
 
 static inline void test_messages_begin(void)

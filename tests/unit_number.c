@@ -16,19 +16,19 @@ static const struct {
     const char *text;
     double value;
 } doubles[] = {
-    { "0", 0 },
-    { "007", 7 },
-    { "+5", 5 },
-    { "-1.5", -1.5 },
-    { "0.1", 0.1 },
-    { "1e3", 1000 },
-    { "1E-3", 0.001 },
-    { "2.5e+2", 250 },
-    { "1e-400", 0 },
-    { "4.9e-324", 0x1p-1074 },
-    { "1.7976931348623157e308", 0x1.fffffffffffffp+1023 },
-    { "0.30000000000000004", 0.1 + 0.2 },
-    { "9007199254740993", 0x1p53 },
+    {"0", 0},
+    {"007", 7},
+    {"+5", 5},
+    {"-1.5", -1.5},
+    {"0.1", 0.1},
+    {"1e3", 1000},
+    {"1E-3", 0.001},
+    {"2.5e+2", 250},
+    {"1e-400", 0},
+    {"4.9e-324", 0x1p-1074},
+    {"1.7976931348623157e308", 0x1.fffffffffffffp+1023},
+    {"0.30000000000000004", 0.1 + 0.2},
+    {"9007199254740993", 0x1p53},
 };
 
 static const char *const not_doubles[] = {
@@ -92,7 +92,7 @@ static void test_length_counts(void **state)
 static void test_round_trip_and_locale(void **state)
 {
     (void)state;
-    static const char *const locales[] = { "C", "de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8" };
+    static const char *const locales[] = {"C", "de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"};
     char texts[1000][32];
     double values[1000];
     uint64_t random = 1;
@@ -127,24 +127,24 @@ static void test_unsigned(void **state)
         bool good;
         unsigned long value;
     } cases[] = {
-        { "0", 0, true, 0 },
-        { "1", 0, false, 0 },
-        { "10", 9, false, 0 },
-        { "9", 9, true, 9 },
-        { "65536", 65536, true, 65536 },
-        { "65537", 65536, false, 0 },
-        { "00012", 20, true, 12 },
-        { "18446744073709551615", ULONG_MAX, ULONG_MAX == 18446744073709551615U, ULONG_MAX },
-        { "18446744073709551616", ULONG_MAX, false, 0 },
-        { "99999999999999999999999", ULONG_MAX, false, 0 },
-        { "", 9, false, 0 },
-        { "-1", 9, false, 0 },
-        { "+1", 9, false, 0 },
-        { "1.0", 9, false, 0 },
-        { "1e0", 9, false, 0 },
-        { "1x", 9, false, 0 },
-        { " 1", 9, false, 0 },
-        { "0x1", 9, false, 0 },
+        {"0", 0, true, 0},
+        {"1", 0, false, 0},
+        {"10", 9, false, 0},
+        {"9", 9, true, 9},
+        {"65536", 65536, true, 65536},
+        {"65537", 65536, false, 0},
+        {"00012", 20, true, 12},
+        {"18446744073709551615", ULONG_MAX, ULONG_MAX == 18446744073709551615U, ULONG_MAX},
+        {"18446744073709551616", ULONG_MAX, false, 0},
+        {"99999999999999999999999", ULONG_MAX, false, 0},
+        {"", 9, false, 0},
+        {"-1", 9, false, 0},
+        {"+1", 9, false, 0},
+        {"1.0", 9, false, 0},
+        {"1e0", 9, false, 0},
+        {"1x", 9, false, 0},
+        {" 1", 9, false, 0},
+        {"0x1", 9, false, 0},
     };
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         unsigned long value = 42;

@@ -275,7 +275,7 @@ static void test_every_error_in_file_order(void **state)
                   "image: { width: 0, height: 0 }\n",
                   &scene),
         STATUS_REFUSED);
-    static const char *const places[] = { "1:1", "2:40", "2:51", "2:66", "4:30", "5:17", "5:28" };
+    static const char *const places[] = {"1:1", "2:40", "2:51", "2:66", "4:30", "5:17", "5:28"};
     const char *at = messages;
     for (size_t i = 0; i < sizeof(places) / sizeof(places[0]); i++) {
         char head[64];
@@ -347,12 +347,12 @@ static void test_figures(void **state)
         enum light_type light;
         enum material_type first_sphere, second_sphere, front;
     } figures[] = {
-        { "figure_2a", LIGHT_POINT, MATERIAL_MATTE, MATERIAL_MATTE, MATERIAL_MATTE },
-        { "figure_2b", LIGHT_QUAD, MATERIAL_MATTE, MATERIAL_MATTE, MATERIAL_MATTE },
-        { "figure_3a", LIGHT_POINT, MATERIAL_MIRROR, MATERIAL_MATTE, MATERIAL_MATTE },
-        { "figure_3b", LIGHT_POINT, MATERIAL_MIRROR, MATERIAL_MIRROR, MATERIAL_MATTE },
-        { "figure_3c", LIGHT_POINT, MATERIAL_MIRROR, MATERIAL_MIRROR, MATERIAL_MIRROR },
-        { "figure_4", LIGHT_POINT, MATERIAL_MIRROR, MATERIAL_TRANSPARENT, MATERIAL_MATTE },
+        {"figure_2a", LIGHT_POINT, MATERIAL_MATTE, MATERIAL_MATTE, MATERIAL_MATTE},
+        {"figure_2b", LIGHT_QUAD, MATERIAL_MATTE, MATERIAL_MATTE, MATERIAL_MATTE},
+        {"figure_3a", LIGHT_POINT, MATERIAL_MIRROR, MATERIAL_MATTE, MATERIAL_MATTE},
+        {"figure_3b", LIGHT_POINT, MATERIAL_MIRROR, MATERIAL_MIRROR, MATERIAL_MATTE},
+        {"figure_3c", LIGHT_POINT, MATERIAL_MIRROR, MATERIAL_MIRROR, MATERIAL_MIRROR},
+        {"figure_4", LIGHT_POINT, MATERIAL_MIRROR, MATERIAL_TRANSPARENT, MATERIAL_MATTE},
     };
     for (size_t i = 0; i < sizeof(figures) / sizeof(figures[0]); i++) {
         char path[4096];
