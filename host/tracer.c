@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "specialization.h"
 #include "vulkan_buffer.h"
 #include "whitted_spirv.h"
 
@@ -13,7 +14,8 @@ enum { CHANNELS = 3 };
 struct tracer {
     struct vulkan_context *context;
     bool scene_in_storage;
-    unsigned group_width, group_height, rows, tile_pixels;
+    struct group_shape shape;
+    unsigned tile_pixels;
     struct vulkan_buffer scene, picture;
     struct vulkan_buffer staging; /* only where the host cannot read `picture` well */
     VkDescriptorBufferInfo bindings[BINDINGS];
@@ -33,75 +35,6 @@ struct tracer {
 struct push_constants {
     uint32_t tile_x, tile_y, tile_width, tile_height, picture_width, picture_height;
 };
-
-/* The values of the shader's constants 0, 1, 2...; see shaders/scene.glsl. */
-struct specialization {
-    uint32_t group_width, group_height;
-    int32_t spheres, planes, point_lights, quad_lights, max_bounces, samples, light_samples;
-    VkBool32 mirrors, glass, glass_planes, rough, spheres_hold_rays, spheres_hold_lights, planes_shadow,
-        mixed_order, one_roughness;
-    uint32_t plane_axes, rows, entered_spheres;
-    VkBool32 count_rays;
-};
-
-static void note_surface(struct specialization *constants, const struct packed_scene *scene,
-                         const PackedSurface *surface)
-{
-    if (surface->tags.x == KIND_MATTE &&
-        (surface->parameters.w != scene->view.matte.x || surface->oren_nayar_b.x != scene->view.matte.y))
-        constants->one_roughness = VK_FALSE;
-    constants->mirrors |= surface->tags.x == KIND_MIRROR;
-    constants->glass |= surface->tags.x == KIND_TRANSPARENT;
-    constants->rough |= surface->tags.x == KIND_MATTE && surface->oren_nayar_b.x != 0;
-}
-
-static uint32_t plane_axis(layout_vec4 normal)
-{
-    if (normal.y == 0 && normal.z == 0)
-        return 1;
-    if (normal.x == 0 && normal.z == 0)
-        return 2;
-    return normal.x == 0 && normal.y == 0 ? 3 : 0;
-}
-
-static struct specialization specialize(const struct tracer *tracer, const struct packed_scene *scene,
-                                        bool count_rays)
-{
-    struct specialization constants = {
-        .group_width = tracer->group_width,
-        .group_height = tracer->group_height,
-        .spheres = scene->sphere_count,
-        .planes = scene->plane_count,
-        .point_lights = scene->point_light_count,
-        .quad_lights = scene->quad_light_count,
-        .max_bounces = scene->max_bounces,
-        .samples = scene->samples,
-        .light_samples = scene->light_samples,
-        .one_roughness = VK_TRUE,
-        .rows = tracer->rows,
-        .count_rays = count_rays,
-    };
-    int last_sphere_rank = -1;
-    for (int i = 0; i < scene->sphere_count; ++i) {
-        const PackedSurface *surface = &scene->spheres[i].surface;
-        note_surface(&constants, scene, surface);
-        constants.spheres_hold_rays |= surface->tags.z != 0;
-        constants.spheres_hold_lights |= surface->tags.w != 0;
-        if (i < 32 && (surface->tags.x == KIND_TRANSPARENT || surface->tags.z != 0))
-            constants.entered_spheres |= UINT32_C(1) << i;
-        last_sphere_rank = surface->tags.y;
-    }
-    for (int i = 0; i < scene->plane_count; ++i) {
-        const PackedSurface *surface = &scene->planes[i].surface;
-        note_surface(&constants, scene, surface);
-        constants.glass_planes |= surface->tags.x == KIND_TRANSPARENT;
-        constants.planes_shadow |= surface->tags.z != 0;
-        constants.mixed_order |= surface->tags.y < last_sphere_rank;
-        if (i < 16)
-            constants.plane_axes |= plane_axis(scene->planes[i].normal_offset) << (2 * i);
-    }
-    return constants;
-}
 
 /* Lays the scene's parts out in one buffer; a part has room for at least one element. */
 static enum status upload_scene(struct tracer *tracer, const struct packed_scene *scene)
@@ -169,7 +102,7 @@ static enum status create_pipeline(struct tracer *tracer, const struct packed_sc
 {
     const VkDevice device = tracer->context->device;
     const struct spirv code = whitted_spirv(options->fast, tracer->scene_in_storage);
-    const struct specialization constants = specialize(tracer, scene, options->count_rays);
+    const struct specialization constants = specialize(scene, &tracer->shape, options->count_rays);
     VkSpecializationMapEntry entries[sizeof constants / sizeof(uint32_t)];
     for (uint32_t i = 0; i < sizeof entries / sizeof *entries; ++i)
         entries[i] = (VkSpecializationMapEntry){i, i * (uint32_t)sizeof(uint32_t), sizeof(uint32_t)};
@@ -333,9 +266,9 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
     tracer->context = context;
     /* A processor's lanes share the loading of the scene over many pixels; a GPU wants many invocations. */
     bool on_processor = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    tracer->rows = on_processor ? 16 : 1;
-    tracer->group_width = options->group_width ? options->group_width : 8;
-    tracer->group_height = options->group_height ? options->group_height : on_processor ? 1 : 8;
+    tracer->shape.rows = on_processor ? 16 : 1;
+    tracer->shape.width = options->group_width ? options->group_width : 8;
+    tracer->shape.height = options->group_height ? options->group_height : on_processor ? 1 : 8;
     tracer->tile_pixels = options->tile_pixels ? options->tile_pixels : choose_tile_pixels(context, scene);
     tracer->picture_width = (unsigned)scene->width;
     tracer->picture_height = (unsigned)scene->height;
@@ -404,8 +337,8 @@ static enum status record_tile(struct tracer *tracer, struct window tile)
         vkCmdResetQueryPool(commands, tracer->timestamps, 0, 2);
         vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, tracer->timestamps, 0);
     }
-    unsigned group_rows = tracer->group_height * tracer->rows;
-    vkCmdDispatch(commands, (tile.width + tracer->group_width - 1) / tracer->group_width,
+    unsigned group_rows = tracer->shape.height * tracer->shape.rows;
+    vkCmdDispatch(commands, (tile.width + tracer->shape.width - 1) / tracer->shape.width,
                   (tile.height + group_rows - 1) / group_rows, 1);
     if (tracer->timestamps)
         vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, tracer->timestamps, 1);
