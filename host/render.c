@@ -66,7 +66,7 @@ static enum status count_rays(struct vulkan_context *context, const struct rende
     enum status status = image_create(plan->window.width, plan->window.height, &counts);
     if (status == STATUS_DONE)
         status = tracer_create(context, plan->scene,
-                               &(struct tracer_options){.fast = plan->fast, .count_rays = true}, &tracer);
+                               &(struct tracer_options){.fast = plan->fast, .output = OUTPUT_RAYS}, &tracer);
     if (status == STATUS_DONE)
         status = tracer_render(tracer, plan->window, &counts, &progress, &unused_ms);
     progress_end(&progress);

@@ -21,7 +21,7 @@ static uint32_t plane_axis(layout_vec4 normal)
 }
 
 struct specialization specialize(const struct packed_scene *scene, const struct group_shape *shape,
-                                 bool count_rays)
+                                 int output)
 {
     struct specialization constants = {
         .group_width = shape->width,
@@ -35,7 +35,7 @@ struct specialization specialize(const struct packed_scene *scene, const struct 
         .light_samples = scene->light_samples,
         .one_roughness = VK_TRUE,
         .rows = shape->rows,
-        .count_rays = count_rays,
+        .output = output,
     };
     int last_sphere_rank = -1;
     for (int i = 0; i < scene->sphere_count; ++i) {

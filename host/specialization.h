@@ -19,11 +19,11 @@ struct specialization {
     VkBool32 mirrors, glass, glass_planes, rough, spheres_hold_rays, spheres_hold_lights, planes_shadow,
         mixed_order, one_roughness;
     uint32_t plane_axes, rows, entered_spheres;
-    VkBool32 count_rays;
+    int32_t output; /* OUTPUT_ */
 };
 
 /* Finds what the scene needs, so that the pipeline holds nothing else. */
 struct specialization specialize(const struct packed_scene *scene, const struct group_shape *shape,
-                                 bool count_rays);
+                                 int output);
 
 #endif

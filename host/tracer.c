@@ -102,7 +102,7 @@ static enum status create_pipeline(struct tracer *tracer, const struct packed_sc
 {
     const VkDevice device = tracer->context->device;
     const struct spirv code = whitted_spirv(options->fast, tracer->scene_in_storage);
-    const struct specialization constants = specialize(scene, &tracer->shape, options->count_rays);
+    const struct specialization constants = specialize(scene, &tracer->shape, options->output);
     VkSpecializationMapEntry entries[sizeof constants / sizeof(uint32_t)];
     for (uint32_t i = 0; i < sizeof entries / sizeof *entries; ++i)
         entries[i] = (VkSpecializationMapEntry){i, i * (uint32_t)sizeof(uint32_t), sizeof(uint32_t)};

@@ -21,7 +21,7 @@ layout(constant_id = 17) const bool ONE_ROUGHNESS = false; // all matte surfaces
 layout(constant_id = 18) const uint PLANE_AXES = 0u; // two bits a plane: normal along x 1, y 2, z 3, other 0
 layout(constant_id = 19) const uint ROWS = 1u; // pixels an invocation renders, one below the other
 layout(constant_id = 20) const uint ENTERED_SPHERES = ~0u; // a bit for each sphere that rays can run inside of
-layout(constant_id = 21) const bool COUNT_RAYS = false; // pixels are primary, secondary, shadow ray counts
+layout(constant_id = 21) const int OUTPUT = OUTPUT_RADIANCE; // what a pixel's three values are
 
 const bool SECONDARY_RAYS = (MIRRORS || GLASS) && MAX_BOUNCES > 0;
 

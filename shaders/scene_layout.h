@@ -39,6 +39,12 @@ typedef struct PackedSurface PackedSurface;
 /* A ray of smaller weight is not traced and a smaller pixel value is 0, for the same reason. */
 #define SMALLEST_WEIGHT 8.077935669463161e-28 /* 2^-90 */
 
+/* What a pixel's three values are: radiance; the numbers of primary, secondary and shadow rays; or the path
+ * signature, a hash of every decision of the ray tree, as its lower and upper 16 bits and 0. */
+#define OUTPUT_RADIANCE 0
+#define OUTPUT_RAYS 1
+#define OUTPUT_SIGNATURE 2
+
 struct PackedSurface {
     /* matte: albedo / pi in xyz, Oren-Nayar's A in w.
      * transparent: eta entering, 1 - eta^2 entering, eta leaving, 1 - eta^2 leaving. */

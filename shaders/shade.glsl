@@ -26,7 +26,7 @@ real matte_factor(Matte matte, real3 to_light, real cos_in)
 
 // What `light` at its point gives per unit of intensity: factor cos / distance^2, or 0 in shadow.
 // to_light comes back as well, for lights that do not shine to all sides.
-real point_irradiance(Matte matte, real3 light, out real3 to_light, inout uint shadow_rays)
+real point_irradiance(Matte matte, real3 light, out real3 to_light, inout Tally tally)
 {
     exact real3 way = light - matte.point;
     exact real distance_squared = dot3(way, way);
@@ -37,15 +37,14 @@ real point_irradiance(Matte matte, real3 light, out real3 to_light, inout uint s
     exact real cos_in = dot3(matte.normal, direction);
     exact real irradiance = real(0);
     if (cos_in > real(0) && distance_squared > real(NEAREST_LIGHT_SQUARED)) {
-        if (COUNT_RAYS)
-            ++shadow_rays;
+        ++tally.shadow_rays;
         if (!in_shadow(matte.point, matte.surface, matte.inward, direction, distance, light))
             irradiance = matte_factor(matte, direction, cos_in) * (inverse * inverse);
     }
     return irradiance;
 }
 
-real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout uint shadow_rays)
+real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout Tally tally)
 {
     real3 corner = real3(get_quad_light(i).corner.xyz);
     real3 edge_u = real3(get_quad_light(i).edge_u.xyz);
@@ -59,9 +58,11 @@ real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout uint
         sequence_point(sequence, first_sample + uint(k), u, v);
         exact real3 light = corner + u * edge_u + v * edge_v;
         real3 to_light;
-        real irradiance = point_irradiance(matte, light, to_light, shadow_rays);
+        real irradiance = point_irradiance(matte, light, to_light, tally);
         exact real projected_area = dot3(area_normal, to_light);
-        if (projected_area > real(0))
+        bool lit = irradiance > real(0) && projected_area > real(0);
+        note(tally, lit ? 1u : 0u);
+        if (lit)
             sum = sum + irradiance * projected_area;
     }
     exact real3 total = radiance * sum;
@@ -69,17 +70,18 @@ real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout uint
 }
 
 // Radiance per unit of albedo / pi.
-real3 direct_light(Matte matte, uint sample_index, uint seed, inout uint shadow_rays)
+real3 direct_light(Matte matte, uint sample_index, uint seed, inout Tally tally)
 {
     exact real3 sum = real3(0);
     if (POINT_LIGHTS > 0)
         [[unroll]] for (int i = 0; i < POINT_LIGHTS; ++i) {
             real3 to_light;
-            real irradiance = point_irradiance(matte, real3(get_point_light(i).position.xyz), to_light, shadow_rays);
+            real irradiance = point_irradiance(matte, real3(get_point_light(i).position.xyz), to_light, tally);
+            note(tally, irradiance > real(0) ? 1u : 0u);
             sum = sum + irradiance * real3(get_point_light(i).intensity.xyz);
         }
     if (QUAD_LIGHTS > 0) // lavapipe runs the body of an empty loop once, masked
         [[unroll]] for (int i = 0; i < QUAD_LIGHTS; ++i)
-            sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), shadow_rays);
+            sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), tally);
     return sum;
 }

@@ -7,6 +7,7 @@
 #include "arithmetic.glsl"
 #include "sampling.glsl"
 #include "scene.glsl"
+#include "tally.glsl"
 #include "intersect.glsl"
 #include "shade.glsl"
 #include "dielectric.glsl"
@@ -79,7 +80,7 @@ struct Pixel {
     uint seed;
     uint sample_index;
     uint shaded; // matte points so far: each draws light samples of its own
-    uint secondary_rays, shadow_rays;
+    Tally tally;
 };
 
 Path primary_path(uvec2 position, real sample_x, real sample_y)
@@ -113,7 +114,7 @@ real3 matte_radiance(inout Pixel pixel, Ray ray, Hit hit, real3 point, real3 nor
     uint seed = hash(pixel.seed + pixel.shaded * uint(QUAD_LIGHTS));
     ++pixel.shaded;
     exact real3 radiance =
-        real3(hit.parameters.xyz) * direct_light(matte, pixel.sample_index, seed, pixel.shadow_rays);
+        real3(hit.parameters.xyz) * direct_light(matte, pixel.sample_index, seed, pixel.tally);
     return radiance;
 }
 
@@ -121,7 +122,7 @@ real3 matte_radiance(inout Pixel pixel, Ray ray, Hit hit, real3 point, real3 nor
 // stack and the refraction goes on. False where nothing goes on.
 // (Members are assigned one by one, because glslang 12 crashes where `precise` has to follow a value through a
 // struct constructor in a loop.)
-bool bounce(inout Path path, inout int pending, Hit hit, real3 point, real3 normal)
+bool bounce(inout Path path, inout int pending, inout Tally tally, Hit hit, real3 point, real3 normal)
 {
     exact real cos_in = -dot3(normal, path.ray.direction);
     cos_in = cos_in > real(0) ? cos_in : real(0);
@@ -137,6 +138,7 @@ bool bounce(inout Path path, inout int pending, Hit hit, real3 point, real3 norm
     real eta = real(hit.leaving ? hit.parameters.z : hit.parameters.x);
     real kappa = real(hit.leaving ? hit.parameters.w : hit.parameters.y);
     Refraction refraction = refracted(incident, normal, cos_in, eta, kappa);
+    note(tally, uint(refraction.total));
     exact real reflected_weight = refraction.total ? path.weight : path.weight * refraction.reflectance;
     exact real refracted_weight = path.weight * (real(1) - refraction.reflectance);
     bool reflects = reflected_weight > real(SMALLEST_WEIGHT);
@@ -171,12 +173,13 @@ void trace(inout Pixel pixel, Path path)
     bool goes_on = true;
     while (goes_on) {
         Hit hit = nearest_hit(path.ray);
+        note(pixel.tally, uint(hit.surface + 1) * 2u + uint(hit.leaving));
         real3 point, normal;
         hit_point(path.ray, hit, point, normal);
         goes_on = false;
         if (SECONDARY_RAYS && hit.surface >= 0 && hit.kind != KIND_MATTE) {
             if (path.bounces < MAX_BOUNCES)
-                goes_on = bounce(path, pending, hit, point, normal);
+                goes_on = bounce(path, pending, pixel.tally, hit, point, normal);
         } else {
             add_leaf(pixel, path, hit, point, normal);
         }
@@ -184,14 +187,14 @@ void trace(inout Pixel pixel, Path path)
             pop(path, pending);
             goes_on = true;
         }
-        if (COUNT_RAYS && goes_on)
-            ++pixel.secondary_rays;
+        if (goes_on)
+            ++pixel.tally.secondary_rays;
     }
 }
 
 real3 pixel_radiance(uvec2 position)
 {
-    Pixel pixel = Pixel(real3(0), 0u, 0u, 0u, 0u, 0u);
+    Pixel pixel = Pixel(real3(0), 0u, 0u, 0u, Tally(0u, 0u, 0u));
     if (SAMPLES > 1 || QUAD_LIGHTS > 0)
         pixel.seed = hash(hash(position.x) + position.y);
     if (SAMPLES == 1) {
@@ -208,8 +211,10 @@ real3 pixel_radiance(uvec2 position)
         exact real3 mean = pixel.radiance / real(SAMPLES);
         pixel.radiance = mean;
     }
-    if (COUNT_RAYS)
-        return real3(real(SAMPLES), real(pixel.secondary_rays), real(pixel.shadow_rays));
+    if (OUTPUT == OUTPUT_RAYS)
+        return real3(real(SAMPLES), real(pixel.tally.secondary_rays), real(pixel.tally.shadow_rays));
+    if (OUTPUT == OUTPUT_SIGNATURE)
+        return real3(real(pixel.tally.signature & 0xffffu), real(pixel.tally.signature >> 16), real(0));
     return pixel.radiance;
 }
 
