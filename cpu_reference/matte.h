@@ -2,10 +2,9 @@
 #ifndef REFERENCE_MATTE_H
 #define REFERENCE_MATTE_H
 
-#include <stdint.h>
-
 #include "geometry.h"
 #include "sobol.h"
+#include "tally.h"
 
 struct matte_point {
     const struct ray *ray;
@@ -27,7 +26,7 @@ static inline real oren_nayar(real a, real b, struct vec3 to_light, struct vec3 
 /* The light point's share of radiance per unit of intensity and of albedo / pi: 0 if it is behind the surface
  * or hidden. *to_light is the unit direction to it. */
 static inline real receive(const struct packed_scene *scene, const struct matte_point *matte,
-                           struct vec3 light, struct vec3 *to_light, uint64_t *shadow_rays)
+                           struct vec3 light, struct vec3 *to_light, struct tally *tally)
 {
     const struct hit *hit = matte->hit;
     struct vec3 way = subtract(light, hit->point);
@@ -40,7 +39,7 @@ static inline real receive(const struct packed_scene *scene, const struct matte_
     real cos_in = dot(hit->normal, *to_light);
     if (!(cos_in > 0))
         return 0;
-    ++*shadow_rays;
+    ++tally->rays.shadow;
     struct segment segment = {
         .from = hit->point,
         .to = light,
@@ -58,7 +57,7 @@ static inline real receive(const struct packed_scene *scene, const struct matte_
 
 static inline struct vec3 receive_quad(const struct packed_scene *scene, const struct matte_point *matte,
                                        const struct PackedQuadLight *quad, uint32_t seed,
-                                       uint32_t pixel_sample, uint64_t *shadow_rays)
+                                       uint32_t pixel_sample, struct tally *tally)
 {
     struct vec3 edge_u = vector_of(quad->edge_u), edge_v = vector_of(quad->edge_v);
     real sum = 0;
@@ -67,9 +66,11 @@ static inline struct vec3 receive_quad(const struct packed_scene *scene, const s
         sobol_point(seed, pixel_sample * (uint32_t)scene->light_samples + (uint32_t)k, &u, &v);
         struct vec3 light = add(add(vector_of(quad->corner), scale(u, edge_u)), scale(v, edge_v));
         struct vec3 to_light = {0, 0, 0};
-        real received = receive(scene, matte, light, &to_light, shadow_rays);
+        real received = receive(scene, matte, light, &to_light, tally);
         real projected_area = dot(vector_of(quad->area_normal), to_light);
-        if (projected_area > 0)
+        bool lit = received > 0 && projected_area > 0;
+        note(tally, lit);
+        if (lit)
             sum = sum + received * projected_area;
     }
     return scale(sum, vector_of(quad->radiance));
@@ -78,19 +79,19 @@ static inline struct vec3 receive_quad(const struct packed_scene *scene, const s
 /* Radiance that the matte hit sends back along the ray. */
 static inline struct vec3 reflect_lights(const struct packed_scene *scene, const struct ray *ray,
                                          const struct hit *hit, uint32_t seed, uint32_t pixel_sample,
-                                         uint64_t *shadow_rays)
+                                         struct tally *tally)
 {
     struct matte_point matte = {ray, hit, -dot(hit->normal, ray->direction)};
     struct vec3 sum = {0, 0, 0};
     for (int i = 0; i < scene->point_light_count; ++i) {
         struct vec3 to_light;
-        real received =
-            receive(scene, &matte, vector_of(scene->point_lights[i].position), &to_light, shadow_rays);
+        real received = receive(scene, &matte, vector_of(scene->point_lights[i].position), &to_light, tally);
+        note(tally, received > 0);
         sum = add(sum, scale(received, vector_of(scene->point_lights[i].intensity)));
     }
     for (int i = 0; i < scene->quad_light_count; ++i)
         sum = add(sum, receive_quad(scene, &matte, &scene->quad_lights[i], seed + (uint32_t)i, pixel_sample,
-                                    shadow_rays));
+                                    tally));
     return multiply(vector_of(hit->material->parameters), sum);
 }
 

@@ -18,10 +18,10 @@ struct reference_window {
  * linear RGB radiance, rounded to double, row by row from the top: 3 * width * height values. Adds the rays
  * it traced to *rays. The float build computes what the shader does in exact mode, operation by operation. */
 void reference_render_float(const struct packed_scene *scene, struct reference_window window, int threads,
-                            double *rgb, struct reference_rays *rays);
+                            double *rgb, uint32_t *signatures, struct reference_rays *rays);
 void reference_render_double(const struct packed_scene *scene, struct reference_window window, int threads,
-                             double *rgb, struct reference_rays *rays);
+                             double *rgb, uint32_t *signatures, struct reference_rays *rays);
 void reference_render_quad(const struct packed_scene *scene, struct reference_window window, int threads,
-                           double *rgb, struct reference_rays *rays);
+                           double *rgb, uint32_t *signatures, struct reference_rays *rays);
 
 #endif

@@ -5,6 +5,7 @@
 #include "matte.h"
 #include "reference.h"
 #include "sobol.h"
+#include "tally.h"
 
 /* What tracing one pixel reads and gathers. */
 struct pixel {
@@ -12,7 +13,7 @@ struct pixel {
     uint32_t seed, sample;
     uint32_t shaded; /* matte points of this sample so far: each draws light samples of its own */
     struct vec3 radiance;
-    struct reference_rays rays;
+    struct tally tally;
 };
 
 static void trace(struct pixel *pixel, const struct ray *ray, real weight, int bounces);
@@ -21,7 +22,7 @@ static void trace_secondary(struct pixel *pixel, const struct ray *ray, real wei
 {
     if (!(weight > (real)SMALLEST_WEIGHT))
         return;
-    ++pixel->rays.secondary;
+    ++pixel->tally.rays.secondary;
     trace(pixel, ray, weight, bounces);
 }
 
@@ -35,14 +36,16 @@ static void trace(struct pixel *pixel, const struct ray *ray, real weight, int b
 {
     const struct packed_scene *scene = pixel->scene;
     struct hit hit;
-    if (!find_hit(scene, ray, &hit)) {
+    bool met = find_hit(scene, ray, &hit);
+    note(&pixel->tally, (uint32_t)(hit.surface + 1) * 2 + hit.leaving);
+    if (!met) {
         gather(pixel, weight, vector_of(scene->view.background));
         return;
     }
     if (hit.material->tags.x == KIND_MATTE) {
         uint32_t seed = hash32(pixel->seed + pixel->shaded * (uint32_t)scene->quad_light_count);
         ++pixel->shaded;
-        gather(pixel, weight, reflect_lights(scene, ray, &hit, seed, pixel->sample, &pixel->rays.shadow));
+        gather(pixel, weight, reflect_lights(scene, ray, &hit, seed, pixel->sample, &pixel->tally));
         return;
     }
     if (bounces == scene->max_bounces)
@@ -62,6 +65,7 @@ static void trace(struct pixel *pixel, const struct ray *ray, real weight, int b
     layout_vec4 ior = hit.material->parameters;
     struct refraction refraction = hit.leaving ? refract(ray->direction, hit.normal, cos_in, ior.z, ior.w)
                                                : refract(ray->direction, hit.normal, cos_in, ior.x, ior.y);
+    note(&pixel->tally, refraction.total);
     if (refraction.total) {
         trace_secondary(pixel, &reflected, weight, bounces + 1);
         return;
@@ -98,7 +102,7 @@ static struct pixel trace_pixel(const struct packed_scene *scene, int x, int y)
         pixel.sample = k;
         pixel.shaded = 0;
         struct ray ray = primary_ray(scene, x, y, sample_x, sample_y);
-        ++pixel.rays.primary;
+        ++pixel.tally.rays.primary;
         trace(&pixel, &ray, 1, 0);
     }
     if (scene->samples > 1) {
@@ -115,7 +119,7 @@ static double flush_small(real x)
 }
 
 void REFERENCE_RENDER(const struct packed_scene *scene, struct reference_window window, int threads,
-                      double *rgb, struct reference_rays *rays)
+                      double *rgb, uint32_t *signatures, struct reference_rays *rays)
 {
     uint64_t primary = 0, secondary = 0, shadow = 0;
 #pragma omp parallel for schedule(dynamic) num_threads(threads) reduction(+ : primary, secondary, shadow)
@@ -126,9 +130,11 @@ void REFERENCE_RENDER(const struct packed_scene *scene, struct reference_window 
             out[0] = flush_small(pixel.radiance.x);
             out[1] = flush_small(pixel.radiance.y);
             out[2] = flush_small(pixel.radiance.z);
-            primary += pixel.rays.primary;
-            secondary += pixel.rays.secondary;
-            shadow += pixel.rays.shadow;
+            if (signatures)
+                signatures[(size_t)row * (size_t)window.width + (size_t)column] = pixel.tally.signature;
+            primary += pixel.tally.rays.primary;
+            secondary += pixel.tally.rays.secondary;
+            shadow += pixel.tally.rays.shadow;
         }
     }
     rays->primary += primary;

@@ -124,13 +124,13 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
         double start = clock_ms();
         switch (plan->precision) {
         case PRECISION_FLOAT:
-            reference_render_float(plan->scene, part, threads, band, rays);
+            reference_render_float(plan->scene, part, threads, band, NULL, rays);
             break;
         case PRECISION_DOUBLE:
-            reference_render_double(plan->scene, part, threads, band, rays);
+            reference_render_double(plan->scene, part, threads, band, NULL, rays);
             break;
         case PRECISION_QUAD:
-            reference_render_quad(plan->scene, part, threads, band, rays);
+            reference_render_quad(plan->scene, part, threads, band, NULL, rays);
             break;
         }
         *milliseconds += clock_ms() - start;

@@ -1,0 +1,251 @@
+/* Running error analysis of the float tracer (Higham, "Accuracy and Stability of Numerical Algorithms",
+ * section 3.3), carried along by the high-precision build: how far the float run may be from the exact one at
+ * each quantity, to first order, and how far each decision is from going the other way. NUMERICS.md derives
+ * the formulas. All errors are absolute and in scene units, radians or radiance. A margin is the distance to
+ * the other outcome in units of the error: below 1, float may decide otherwise. */
+#ifndef REFERENCE_MARGIN_H
+#define REFERENCE_MARGIN_H
+
+#include "dielectric.h"
+#include "geometry.h"
+
+static const double unit_roundoff = 0x1p-24; /* float's */
+
+/* What a few operations on quantities of this size lose: the vector formulas here take 4 to 8 roundings of
+ * half a unit each. */
+static inline double rounding(double magnitude)
+{
+    return 4 * unit_roundoff * magnitude;
+}
+
+static inline double length(struct vec3 v)
+{
+    return (double)square_root(dot(v, v));
+}
+
+static inline double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+struct ray_error {
+    double origin;    /* length */
+    double direction; /* radians */
+};
+
+/* A decision by several conditions that must all hold: if it holds, the weakest condition decides how safe it
+ * is; if not, the strongest of those that fail. */
+struct conjunction {
+    bool holds;
+    double weakest, strongest_failure;
+};
+
+static inline struct conjunction conjunction_begin(void)
+{
+    return (struct conjunction){.holds = true, .weakest = INFINITY, .strongest_failure = 0};
+}
+
+/* value > 0, value being known up to error. */
+static inline void require_positive(struct conjunction *decision, double value, double error)
+{
+    double margin = fabs(value) / error;
+    if (value > 0) {
+        decision->weakest = smaller(decision->weakest, margin);
+    } else {
+        decision->holds = false;
+        decision->strongest_failure = larger(decision->strongest_failure, margin);
+    }
+}
+
+static inline double conjunction_margin(const struct conjunction *decision)
+{
+    return decision->holds ? decision->weakest : decision->strongest_failure;
+}
+
+/* How a ray passes a sphere, with errors. */
+struct tracked_passage {
+    double along, e_along;
+    double clearance, e_clearance; /* radius - distance of the line from the centre */
+    double half_chord;
+};
+
+static inline struct tracked_passage track_passage(layout_vec4 center_radius, struct vec3 origin,
+                                                   struct vec3 direction, struct ray_error error)
+{
+    struct vec3 to_center = subtract(vector_of(center_radius), origin);
+    struct passage passage = pass_sphere(to_center, direction, center_radius.w);
+    double apart = length(to_center), radius = (double)center_radius.w;
+    double foot = length(passage.foot);
+    return (struct tracked_passage){
+        .along = (double)passage.along,
+        .e_along = error.origin + apart * error.direction + rounding(apart),
+        .clearance = (double)passage.half_chord_squared / (radius + foot),
+        .e_clearance =
+            error.origin + fabs((double)passage.along) * error.direction + rounding(apart + radius),
+        .half_chord = (double)square_root(at_least_zero(passage.half_chord_squared)),
+    };
+}
+
+/* How far float's `lies_inside` is from the other answer. */
+static inline double inside_margin(layout_vec4 center_radius, struct vec3 point, double e_point)
+{
+    double apart = length(subtract(vector_of(center_radius), point)), radius = (double)center_radius.w;
+    return fabs(apart - radius) / (e_point + rounding(apart + radius));
+}
+
+/* Error of a distance along the ray to the surface, which the ray meets. */
+static inline double distance_error(const struct packed_scene *scene, const struct ray *ray, int surface,
+                                    double distance, struct ray_error error)
+{
+    if (surface < scene->sphere_count) {
+        struct tracked_passage passage =
+            track_passage(scene->spheres[surface].center_radius, ray->origin, ray->direction, error);
+        double radius = (double)scene->spheres[surface].center_radius.w;
+        double lateral = passage.e_clearance * radius / passage.half_chord;
+        return passage.e_along + (passage.half_chord > 0 ? lateral : INFINITY);
+    }
+    layout_vec4 plane = scene->planes[surface - scene->sphere_count].normal_offset;
+    double slope = fabs((double)dot(vector_of(plane), ray->direction));
+    double size = length(ray->origin) + fabs((double)plane.w) + distance;
+    return (error.origin + distance * error.direction + rounding(size)) / slope;
+}
+
+/* Margin of a sphere's not being the nearest hit, which is at nearest_distance +- e_nearest. */
+static inline double sphere_margin(const struct packed_scene *scene, int i, const struct ray *ray,
+                                   struct ray_error error, double nearest_distance, double e_nearest)
+{
+    const struct PackedSphere *sphere = &scene->spheres[i];
+    if (ray->surface == i)
+        return INFINITY; /* certain either way */
+    struct tracked_passage passage = track_passage(sphere->center_radius, ray->origin, ray->direction, error);
+    double margin = INFINITY;
+    if (sphere->surface.tags.z != 0)
+        margin = inside_margin(sphere->center_radius, ray->origin, error.origin);
+    struct conjunction met = conjunction_begin();
+    require_positive(&met, passage.along, passage.e_along);
+    require_positive(&met, passage.clearance, passage.e_clearance);
+    /* Met or not, it matters only where it is not clearly behind the nearest. */
+    double front = passage.along - passage.half_chord;
+    require_positive(&met, nearest_distance - front, e_nearest + passage.e_along);
+    return smaller(margin, conjunction_margin(&met));
+}
+
+static inline double plane_margin(const struct packed_scene *scene, int i, const struct ray *ray,
+                                  struct ray_error error, double nearest_distance, double e_nearest)
+{
+    const struct PackedPlane *plane = &scene->planes[i];
+    int surface = scene->sphere_count + i;
+    if (ray->surface == surface)
+        return INFINITY;
+    struct vec3 normal = vector_of(plane->normal_offset);
+    double slope = (double)dot(normal, ray->direction);
+    double height = (double)(dot(normal, ray->origin) - plane->normal_offset.w);
+    double e_slope = error.direction + rounding(1);
+    double e_height = error.origin + rounding(length(ray->origin) + fabs((double)plane->normal_offset.w));
+    if (plane->surface.tags.x != KIND_TRANSPARENT) {
+        height = larger(height, 0); /* known */
+    } else if (height < 0) {
+        height = -height;
+        slope = -slope;
+    }
+    struct conjunction met = conjunction_begin();
+    require_positive(&met, -slope, e_slope);
+    if (plane->surface.tags.x == KIND_TRANSPARENT)
+        require_positive(&met, height, e_height);
+    /* height / -slope < nearest_distance, without dividing by a slope near 0 */
+    require_positive(&met, nearest_distance * -slope - height,
+                     e_height + nearest_distance * e_slope + e_nearest * fabs(slope));
+    return conjunction_margin(&met);
+}
+
+/* Margin of the choice of the nearest hit (or of none). */
+static inline double hit_margin(const struct packed_scene *scene, const struct ray *ray,
+                                struct ray_error error, const struct hit *hit)
+{
+    bool none = hit->surface == NO_SURFACE;
+    double distance = none ? FARTHEST_HIT : (double)hit->distance;
+    double e_distance = none ? 0 : distance_error(scene, ray, hit->surface, distance, error);
+    double margin = INFINITY;
+    for (int i = 0; i < scene->sphere_count; ++i) {
+        /* the nearest itself: only whether it is met at all */
+        bool nearest = i == hit->surface;
+        margin = smaller(margin, sphere_margin(scene, i, ray, error, nearest ? FARTHEST_HIT : distance,
+                                               nearest ? 0 : e_distance));
+    }
+    for (int i = 0; i < scene->plane_count; ++i) {
+        bool nearest = scene->sphere_count + i == hit->surface;
+        margin = smaller(margin, plane_margin(scene, i, ray, error, nearest ? FARTHEST_HIT : distance,
+                                              nearest ? 0 : e_distance));
+    }
+    return margin;
+}
+
+/* Errors of the hit's point and normal. */
+struct hit_error {
+    double point, normal;
+};
+
+static inline struct hit_error track_hit(const struct packed_scene *scene, const struct ray *ray,
+                                         struct ray_error error, const struct hit *hit)
+{
+    double size = length(hit->point);
+    if (hit->surface >= scene->sphere_count)
+        return (struct hit_error){
+            .point = distance_error(scene, ray, hit->surface, (double)hit->distance, error) + rounding(size),
+        };
+    layout_vec4 sphere = scene->spheres[hit->surface].center_radius;
+    struct tracked_passage passage = track_passage(sphere, ray->origin, ray->direction, error);
+    double radius = (double)sphere.w;
+    double normal = passage.e_clearance / passage.half_chord + rounding(1);
+    return (struct hit_error){
+        .normal = normal,
+        .point = radius * normal + rounding(size + radius),
+    };
+}
+
+/* What follows for reflection and refraction. */
+struct dielectric_error {
+    double refracted_direction, reflectance;
+    double margin; /* of total reflection or not */
+};
+
+static inline double track_reflection(double e_direction, double e_normal)
+{
+    return e_direction + 2 * e_normal + rounding(2);
+}
+
+static inline struct dielectric_error track_refraction(double cos_in, double eta, double kappa,
+                                                       double e_direction, double e_normal)
+{
+    double e_cos_in = e_direction + e_normal + rounding(1);
+    double eta_cos = eta * cos_in;
+    double squared = kappa + eta_cos * eta_cos;
+    double e_squared = 2 * eta * eta_cos * e_cos_in + eta * eta * e_cos_in * e_cos_in +
+                       rounding(fabs(kappa) + eta_cos * eta_cos);
+    struct dielectric_error error = {.margin = fabs(squared) / e_squared};
+    if (squared <= 0)
+        return error;
+    double cos_out = sqrt(squared);
+    double e_cos_out = smaller(e_squared / cos_out, sqrt(e_squared));
+    double sum = eta_cos + cos_out, e_sum = eta * e_cos_in + e_cos_out;
+    double bend = fabs(kappa) / sum;
+    double e_bend = bend * (e_sum / sum) + rounding(bend);
+    error.refracted_direction = eta * e_direction + e_bend + bend * e_normal + rounding(eta + bend);
+
+    double r_s = bend / sum, e_r_s = r_s * (2 * e_sum / sum) + rounding(r_s);
+    double cosines = cos_in * cos_out, sines = eta * (1 - cos_in * cos_in);
+    double e_cosines = cos_in * e_cos_out + cos_out * e_cos_in + rounding(cosines);
+    double e_sines = 2 * eta_cos * e_cos_in + rounding(eta);
+    double ratio = fabs(cosines - sines) / (cosines + sines);
+    double e_ratio = (e_cosines + e_sines) * (1 + ratio) / (cosines + sines) + rounding(ratio);
+    error.reflectance = r_s * e_r_s * (1 + ratio * ratio) +
+                        r_s * r_s * (ratio * e_ratio + e_ratio * e_ratio) + rounding(r_s * r_s);
+    return error;
+}
+
+#endif
