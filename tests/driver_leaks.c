@@ -1,0 +1,24 @@
+/* Linked into every program of a sanitized build: leaks of the Vulkan driver and of the validation layer are
+ * not ours. LeakSanitizer can tell whose a leak is only while the library is loaded. */
+const char *__lsan_default_options(void);
+const char *__lsan_default_suppressions(void);
+int dlclose(void *library);
+
+const char *__lsan_default_options(void)
+{
+    return "print_suppressions=0";
+}
+
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libvulkan_lvp\n"
+           "leak:libLLVM\n"
+           "leak:libVkLayer_khronos_validation\n";
+}
+
+/* In place of the C library's: the Vulkan loader unloads nothing. */
+int dlclose(void *library)
+{
+    (void)library;
+    return 0;
+}
