@@ -15,7 +15,7 @@ static const double unit_roundoff = 0x1p-24; /* float's */
  * half a unit each. */
 static inline double rounding(double magnitude)
 {
-    return 4 * unit_roundoff * magnitude;
+    return 2 * unit_roundoff * magnitude;
 }
 
 static inline double length(struct vec3 v)
@@ -71,7 +71,7 @@ static inline double conjunction_margin(const struct conjunction *decision)
 struct tracked_passage {
     double along, e_along;
     double clearance, e_clearance; /* radius - distance of the line from the centre */
-    double half_chord;
+    double half_chord, e_half_chord;
 };
 
 static inline struct tracked_passage track_passage(layout_vec4 center_radius, struct vec3 origin,
@@ -81,13 +81,17 @@ static inline struct tracked_passage track_passage(layout_vec4 center_radius, st
     struct passage passage = pass_sphere(to_center, direction, center_radius.w);
     double apart = length(to_center), radius = (double)center_radius.w;
     double foot = length(passage.foot);
+    double half_chord = (double)square_root(at_least_zero(passage.half_chord_squared));
+    double e_clearance =
+        error.origin + fabs((double)passage.along) * error.direction + rounding(apart + radius);
     return (struct tracked_passage){
         .along = (double)passage.along,
         .e_along = error.origin + apart * error.direction + rounding(apart),
         .clearance = (double)passage.half_chord_squared / (radius + foot),
-        .e_clearance =
-            error.origin + fabs((double)passage.along) * error.direction + rounding(apart + radius),
-        .half_chord = (double)square_root(at_least_zero(passage.half_chord_squared)),
+        .e_clearance = e_clearance,
+        .half_chord = half_chord,
+        /* of the root of a quantity with error 2 radius e_clearance, which may be near 0 */
+        .e_half_chord = smaller(radius * e_clearance / half_chord, sqrt(2 * radius * e_clearance)),
     };
 }
 
@@ -105,9 +109,7 @@ static inline double distance_error(const struct packed_scene *scene, const stru
     if (surface < scene->sphere_count) {
         struct tracked_passage passage =
             track_passage(scene->spheres[surface].center_radius, ray->origin, ray->direction, error);
-        double radius = (double)scene->spheres[surface].center_radius.w;
-        double lateral = passage.e_clearance * radius / passage.half_chord;
-        return passage.e_along + (passage.half_chord > 0 ? lateral : INFINITY);
+        return passage.e_along + passage.e_half_chord;
     }
     layout_vec4 plane = scene->planes[surface - scene->sphere_count].normal_offset;
     double slope = fabs((double)dot(vector_of(plane), ray->direction));
@@ -131,7 +133,7 @@ static inline double sphere_margin(const struct packed_scene *scene, int i, cons
     require_positive(&met, passage.clearance, passage.e_clearance);
     /* Met or not, it matters only where it is not clearly behind the nearest. */
     double front = passage.along - passage.half_chord;
-    require_positive(&met, nearest_distance - front, e_nearest + passage.e_along);
+    require_positive(&met, nearest_distance - front, e_nearest + passage.e_along + passage.e_half_chord);
     return smaller(margin, conjunction_margin(&met));
 }
 

@@ -24,4 +24,19 @@ void reference_render_double(const struct packed_scene *scene, struct reference_
 void reference_render_quad(const struct packed_scene *scene, struct reference_window window, int threads,
                            double *rgb, uint32_t *signatures, struct reference_rays *rays);
 
+/* The exact picture's pixel, and what float may make of it. */
+struct reference_explanation {
+    double rgb[3];      /* linear radiance at high precision */
+    double bound[3];    /* on float's error, if it decides all as here */
+    double margin;      /* below 1, float may decide otherwise; see margin.h */
+    uint32_t signature; /* hash of every decision of the ray tree */
+};
+
+/* Traces the window in double or binary128 with the error analysis of NUMERICS.md: width * height
+ * explanations, row by row from the top. */
+void reference_explain_double(const struct packed_scene *scene, struct reference_window window, int threads,
+                              struct reference_explanation *explanations);
+void reference_explain_quad(const struct packed_scene *scene, struct reference_window window, int threads,
+                            struct reference_explanation *explanations);
+
 #endif

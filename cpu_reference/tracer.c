@@ -1,5 +1,6 @@
 /* Whitted's recursion as the textbook writes it ("An Improved Illumination Model for Shaded Display", CACM
  * 23(6), 1980). Built once for each precision, with REFERENCE_BITS and the entry's name REFERENCE_RENDER. */
+#include "camera.h"
 #include "dielectric.h"
 #include "geometry.h"
 #include "matte.h"
@@ -77,31 +78,13 @@ static void trace(struct pixel *pixel, const struct ray *ray, real weight, int b
     trace_secondary(pixel, &reflected, weight * refraction.reflectance, bounces + 1);
 }
 
-/* The ray through the point (x + sample_x, y + sample_y) of the picture, in pixels from the top left. */
-static struct ray primary_ray(const struct packed_scene *scene, int x, int y, real sample_x, real sample_y)
-{
-    const struct PackedView *view = &scene->view;
-    real right = (real)(2 * x - scene->width) + 2 * sample_x;
-    real down = (real)(2 * y - scene->height) + 2 * sample_y;
-    struct vec3 through = add(add(vector_of(view->forward), scale(right, vector_of(view->half_pixel_right))),
-                              scale(down, vector_of(view->half_pixel_down)));
-    return (struct ray){
-        .origin = vector_of(view->position),
-        .direction = normalize(through),
-        .surface = NO_SURFACE,
-    };
-}
-
 static struct pixel trace_pixel(const struct packed_scene *scene, int x, int y)
 {
-    struct pixel pixel = {.scene = scene, .seed = hash32(hash32((uint32_t)x) + (uint32_t)y)};
+    struct pixel pixel = {.scene = scene, .seed = pixel_seed(x, y)};
     for (uint32_t k = 0; k < (uint32_t)scene->samples; ++k) {
-        real sample_x = (real)0.5, sample_y = (real)0.5;
-        if (scene->samples > 1)
-            sobol_point(pixel.seed, k, &sample_x, &sample_y);
         pixel.sample = k;
         pixel.shaded = 0;
-        struct ray ray = primary_ray(scene, x, y, sample_x, sample_y);
+        struct ray ray = camera_ray(scene, x, y, k);
         ++pixel.tally.rays.primary;
         trace(&pixel, &ray, 1, 0);
     }

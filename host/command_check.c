@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 
+#include "check_truth.h"
 #include "job.h"
 #include "json_file.h"
 #include "output_file.h"
@@ -56,6 +57,11 @@ static enum status check_scene(const struct options *options, struct vulkan_cont
     enum status status = job_create(options, scene, &job);
     if (status != STATUS_DONE)
         return status;
+    if (options->against != PRECISION_FLOAT) {
+        status = check_truth(options, context, scene, &job, results);
+        job_destroy(&job);
+        return status;
+    }
     status = render_on_device(context, &job.plan, &device);
     if (status == STATUS_DONE) {
         status = render_on_cpu(&job.plan, &reference);
@@ -81,9 +87,9 @@ static enum status check_outputs(const struct options *options)
 
 enum status command_check(const struct options *options)
 {
-    struct vulkan_context *context;
+    struct vulkan_context *context = NULL; /* stays so with --backend cpu */
     enum status status = check_outputs(options);
-    if (status == STATUS_DONE)
+    if (status == STATUS_DONE && options->backend == BACKEND_VULKAN)
         status = vulkan_context_create(&options->vulkan, &context);
     if (status != STATUS_DONE)
         return status;
@@ -91,8 +97,9 @@ enum status command_check(const struct options *options)
     for (size_t i = 0; i < options->scene_count && status != STATUS_INTERRUPTED; ++i)
         status = worse(status, check_scene(options, context, options->scenes[i], results));
     if (options->json && status != STATUS_INTERRUPTED) {
-        json_t *document = json_pack("{s:s, s:s, s:O}", "device", context->properties.deviceName, "driver",
-                                     context->driver.driverInfo, "scenes", results);
+        json_t *document =
+            json_pack("{s:s, s:s, s:O}", "device", context ? context->properties.deviceName : "cpu", "driver",
+                      context ? context->driver.driverInfo : "plain-C reference", "scenes", results);
         status = worse(status, json_write(document, options->json));
     }
     json_decref(results);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "image_formats.h"
+#include "viridis.h"
 
 static bool same_bits(float a, float b)
 {
@@ -101,18 +102,6 @@ enum status image_compare(const struct image *a, const struct image *b, const st
     return comparison->differing > 0 ? STATUS_DIFFERS : STATUS_DONE;
 }
 
-/* viridis (Stefan van der Walt and Nathaniel Smith, CC0) at its quarters: perceived lightness grows evenly
- * along it. level in [0, 1]. */
-static void put_colour(double level, uint8_t *rgb)
-{
-    static const double ramp[5][3] = {
-        {68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
-    int quarter = level < 1.0 ? (int)(level * 4.0) : 3;
-    double fraction = level * 4.0 - quarter;
-    for (int c = 0; c < 3; c++)
-        rgb[c] = (uint8_t)lround(ramp[quarter][c] + fraction * (ramp[quarter + 1][c] - ramp[quarter][c]));
-}
-
 static void put_heat(const float *a, const float *b, uint8_t *rgb)
 {
     if (memcmp(a, b, 3 * sizeof(float)) == 0) {
@@ -131,7 +120,7 @@ static void put_heat(const float *a, const float *b, uint8_t *rgb)
         relative_error = fmax(relative_error, magnitude > 0.0 ? channel_error(a[c], b[c]) / magnitude : 0.0);
     }
     double level = relative_error > 0.0 ? 1.0 + log2(relative_error) / 24.0 : 0.0;
-    put_colour(fmin(fmax(level, 0.0), 1.0), rgb);
+    viridis(level, rgb);
 }
 
 struct pair {

@@ -31,6 +31,8 @@ static const char help_text[] =
     "check:\n"
     "  --tolerance ABS[,REL]    values may differ by ABS + REL * value (default: not in a bit)\n"
     "  --allow N                so many pixels may differ\n"
+    "  --against double|quad    judge the picture by the exact one: errors, and pixels\n"
+    "                           that the error analysis does not explain\n"
     "  --heatmap FILE.png       where they differ, as a picture\n"
     "  --json FILE              the result for machines\n"
     "\n"

@@ -33,6 +33,7 @@ enum option_id {
     OPTION_REPEAT,
     OPTION_TOLERANCE,
     OPTION_ALLOW,
+    OPTION_AGAINST,
     OPTION_HEATMAP,
     OPTION_JSON,
     OPTION_HELP,
@@ -56,6 +57,7 @@ static const struct option long_options[] = {
     {"repeat", required_argument, NULL, OPTION_REPEAT},
     {"tolerance", required_argument, NULL, OPTION_TOLERANCE},
     {"allow", required_argument, NULL, OPTION_ALLOW},
+    {"against", required_argument, NULL, OPTION_AGAINST},
     {"heatmap", required_argument, NULL, OPTION_HEATMAP},
     {"json", required_argument, NULL, OPTION_JSON},
     {"help", no_argument, NULL, OPTION_HELP},
@@ -68,15 +70,14 @@ static int takers(int id)
 {
     switch (id) {
     case 'o':
-    case OPTION_BACKEND:
     case OPTION_PRECISION:
-    case OPTION_FAST:
     case OPTION_TRANSFER:
     case OPTION_STATS:
     case OPTION_REPEAT:
         return RENDER;
     case OPTION_TOLERANCE:
     case OPTION_ALLOW:
+    case OPTION_AGAINST:
     case OPTION_HEATMAP:
     case OPTION_JSON:
         return CHECK;
@@ -240,6 +241,10 @@ static enum status read_option(int id, const char *argument, struct options *opt
         return read_number(id, argument, 1, 100000, &options->repeat);
     case OPTION_TOLERANCE:
         return read_tolerance(id, argument, options);
+    case OPTION_AGAINST:
+        status = read_choice(id, argument, precisions + 1, 2, &choice);
+        options->against = (enum precision)(choice + 1);
+        break;
     case OPTION_ALLOW:
         return read_count(id, argument, &options->allow);
     case OPTION_VALIDATE:
@@ -280,6 +285,11 @@ static enum status check_consistency(const struct options *options)
         problem = "--fast is a device's pipeline; it does not go with --backend cpu";
     else if (options->backend == BACKEND_CPU && (options->vulkan.device || options->vulkan.validate))
         problem = "--device and --validate do not go with --backend cpu";
+    else if (options->command == COMMAND_CHECK && options->backend == BACKEND_CPU &&
+             options->against == PRECISION_FLOAT)
+        problem = "check --backend cpu needs --against double or quad";
+    else if (options->against != PRECISION_FLOAT && options->has_tolerance)
+        problem = "--tolerance does not go with --against, which derives a bound for every pixel";
     else if (options->heatmap && options->scene_count > 1)
         problem = "--heatmap takes one scene file";
     else if (options->heatmap && image_format_of(options->heatmap) != IMAGE_FORMAT_PNG)

@@ -34,6 +34,8 @@ struct options {
     bool has_tolerance;
     struct tolerance tolerance;
     unsigned long allow; /* pixels that may differ */
+    enum precision
+        against; /* PRECISION_FLOAT: bit for bit against the reference, otherwise against the truth */
     const char *stats, *json, *heatmap;
     bool quiet;
 };

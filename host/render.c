@@ -53,31 +53,66 @@ static enum status render_once_on_device(void *renderer, const struct render_pla
     return tracer_render(renderer, plan->window, image, progress, milliseconds);
 }
 
-/* Adds up the pixels of a picture of ray counts. */
+/* Renders a picture of another output than radiance. */
+static enum status render_output(struct vulkan_context *context, const struct render_plan *plan, int output,
+                                 struct image *image)
+{
+    struct tracer *tracer = NULL;
+    struct progress progress;
+    double unused_ms;
+    progress_start(&progress, output == OUTPUT_RAYS ? "counting rays" : "path signatures",
+                   (uint64_t)plan->window.width * plan->window.height, plan->quiet);
+    enum status status = image_create(plan->window.width, plan->window.height, image);
+    if (status == STATUS_DONE)
+        status = tracer_create(context, plan->scene,
+                               &(struct tracer_options){.fast = plan->fast, .output = output}, &tracer);
+    if (status == STATUS_DONE)
+        status = tracer_render(tracer, plan->window, image, &progress, &unused_ms);
+    progress_end(&progress);
+    tracer_destroy(&tracer);
+    if (status != STATUS_DONE)
+        image_destroy(image);
+    return status;
+}
+
 static enum status count_rays(struct vulkan_context *context, const struct render_plan *plan,
                               struct reference_rays *rays)
 {
-    struct tracer *tracer = NULL;
-    struct image counts = {0};
-    struct progress progress;
-    double unused_ms;
-    progress_start(&progress, "counting rays", (uint64_t)plan->window.width * plan->window.height,
-                   plan->quiet);
-    enum status status = image_create(plan->window.width, plan->window.height, &counts);
-    if (status == STATUS_DONE)
-        status = tracer_create(context, plan->scene,
-                               &(struct tracer_options){.fast = plan->fast, .output = OUTPUT_RAYS}, &tracer);
-    if (status == STATUS_DONE)
-        status = tracer_render(tracer, plan->window, &counts, &progress, &unused_ms);
-    progress_end(&progress);
-    for (size_t i = 0; status == STATUS_DONE && i < (size_t)counts.width * counts.height; ++i) {
+    struct image counts;
+    enum status status = render_output(context, plan, OUTPUT_RAYS, &counts);
+    if (status != STATUS_DONE)
+        return status;
+    for (size_t i = 0; i < (size_t)counts.width * counts.height; ++i) {
         rays->primary += (uint64_t)counts.rgb[3 * i];
         rays->secondary += (uint64_t)counts.rgb[3 * i + 1];
         rays->shadow += (uint64_t)counts.rgb[3 * i + 2];
     }
-    tracer_destroy(&tracer);
     image_destroy(&counts);
-    return status;
+    return STATUS_DONE;
+}
+
+/* Room for a value a pixel; NULL (reported) without memory. */
+static void *allocate_pixels(const struct window *window, size_t size)
+{
+    void *pixels = calloc((size_t)window->width * window->height, size);
+    if (!pixels)
+        log_error("no memory for %u x %u pixels of %zu bytes", window->width, window->height, size);
+    return pixels;
+}
+
+enum status signatures_on_device(struct vulkan_context *context, const struct render_plan *plan,
+                                 uint32_t **signatures)
+{
+    *signatures = NULL;
+    struct image halves;
+    enum status status = render_output(context, plan, OUTPUT_SIGNATURE, &halves);
+    if (status != STATUS_DONE)
+        return status;
+    *signatures = allocate_pixels(&plan->window, sizeof **signatures);
+    for (size_t i = 0; *signatures && i < (size_t)halves.width * halves.height; ++i)
+        (*signatures)[i] = (uint32_t)halves.rgb[3 * i] | (uint32_t)halves.rgb[3 * i + 1] << 16;
+    image_destroy(&halves);
+    return *signatures ? STATUS_DONE : STATUS_UNABLE;
 }
 
 enum status render_on_device(struct vulkan_context *context, const struct render_plan *plan,
@@ -101,14 +136,18 @@ enum status render_on_device(struct vulkan_context *context, const struct render
     return status;
 }
 
+static int thread_count(const struct render_plan *plan)
+{
+    return plan->threads ? (int)plan->threads : (int)sysconf(_SC_NPROCESSORS_ONLN);
+}
+
 /* Renders in bands of some rows, so that Ctrl-C is heard. */
 static enum status render_once_on_cpu(void *renderer, const struct render_plan *plan, struct image *image,
                                       struct progress *progress, double *milliseconds)
 {
     struct reference_rays *rays = renderer;
     const struct window *window = &plan->window;
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    int threads = plan->threads ? (int)plan->threads : (int)processors;
+    int threads = thread_count(plan);
     unsigned band_height = 65536 / window->width + (unsigned)threads;
     double *band = calloc((size_t)window->width * band_height * 3, sizeof *band);
     if (!band) {
@@ -147,4 +186,53 @@ enum status render_on_cpu(const struct render_plan *plan, struct rendering *rend
 {
     *rendering = (struct rendering){0};
     return render_repeatedly(render_once_on_cpu, &rendering->rays, plan, rendering);
+}
+
+enum status explain_on_cpu(const struct render_plan *plan, enum precision precision,
+                           struct reference_explanation **explanations)
+{
+    const struct window *window = &plan->window;
+    int threads = thread_count(plan);
+    const unsigned band_height = 4 * (unsigned)threads; /* so that Ctrl-C is heard */
+    struct reference_explanation *pixels = *explanations = allocate_pixels(window, sizeof *pixels);
+    if (!pixels)
+        return STATUS_UNABLE;
+    struct progress progress;
+    progress_start(&progress, "exact picture", (uint64_t)window->width * window->height, plan->quiet);
+    for (unsigned y = 0; y < window->height && !interrupt_requested(); y += band_height) {
+        unsigned height = window->height - y < band_height ? window->height - y : band_height;
+        struct reference_window band = {(int)window->x, (int)(window->y + y), (int)window->width,
+                                        (int)height};
+        struct reference_explanation *first = pixels + (size_t)y * window->width;
+        if (precision == PRECISION_DOUBLE)
+            reference_explain_double(plan->scene, band, threads, first);
+        else
+            reference_explain_quad(plan->scene, band, threads, first);
+        progress_advance(&progress, (uint64_t)window->width * height);
+    }
+    progress_end(&progress);
+    if (!interrupt_requested())
+        return STATUS_DONE;
+    free(pixels);
+    *explanations = NULL;
+    return STATUS_INTERRUPTED;
+}
+
+enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatures)
+{
+    const struct window *window = &plan->window;
+    struct reference_rays rays = {0};
+    double *rgb = allocate_pixels(window, 3 * sizeof *rgb);
+    *signatures = allocate_pixels(window, sizeof **signatures);
+    if (rgb && *signatures)
+        reference_render_float(plan->scene,
+                               (struct reference_window){(int)window->x, (int)window->y, (int)window->width,
+                                                         (int)window->height},
+                               thread_count(plan), rgb, *signatures, &rays);
+    free(rgb);
+    if (rgb && *signatures)
+        return STATUS_DONE;
+    free(*signatures);
+    *signatures = NULL;
+    return STATUS_UNABLE;
 }

@@ -37,4 +37,15 @@ enum status render_on_device(struct vulkan_context *context, const struct render
                              struct rendering *rendering);
 enum status render_on_cpu(const struct render_plan *plan, struct rendering *rendering);
 
+/* The path signatures of the window's pixels in float: the hash of every decision of the ray tree. The caller
+ * frees them; NULL with any status but STATUS_DONE. */
+enum status signatures_on_device(struct vulkan_context *context, const struct render_plan *plan,
+                                 uint32_t **signatures);
+enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatures);
+
+/* The exact picture with the error analysis of the float one (precision: double or quad), to be freed by the
+ * caller. */
+enum status explain_on_cpu(const struct render_plan *plan, enum precision precision,
+                           struct reference_explanation **explanations);
+
 #endif

@@ -1,0 +1,161 @@
+/* The reference at high precision, with a running error analysis of what the float tracer does: for each
+ * pixel the radiance, the path signature, how far the nearest decision is from going the other way in float,
+ * and a bound on float's error if all decisions are the same. Built at double and binary128 with the entry's
+ * name REFERENCE_EXPLAIN. */
+#include "camera.h"
+#include "light_margin.h"
+#include "reference.h"
+#include "tally.h"
+
+struct pixel {
+    const struct packed_scene *scene;
+    uint32_t seed, sample, shaded;
+    struct vec3 radiance, error;
+    double margin;
+    struct tally tally;
+};
+
+struct tracked_path {
+    struct ray ray;
+    struct ray_error error;
+    double weight, e_weight;
+    int bounces;
+};
+
+static void trace(struct pixel *pixel, const struct tracked_path *path);
+
+static void trace_secondary(struct pixel *pixel, const struct tracked_path *path)
+{
+    if (path->weight > SMALLEST_WEIGHT)
+        trace(pixel, path);
+}
+
+static void gather(struct pixel *pixel, const struct tracked_path *path, struct vec3 radiance,
+                   struct vec3 error)
+{
+    double relative = path->e_weight + rounding(path->weight);
+    pixel->radiance = add(pixel->radiance, scale((real)path->weight, radiance));
+    pixel->error = add(pixel->error, add(scale((real)path->weight, error), scale((real)relative, radiance)));
+}
+
+static void gather_matte(struct pixel *pixel, const struct tracked_path *path, const struct hit *hit,
+                         struct hit_error hit_error)
+{
+    const struct packed_scene *scene = pixel->scene;
+    uint32_t seed = hash32(pixel->seed + pixel->shaded * (uint32_t)scene->quad_light_count);
+    struct vec3 albedo = vector_of(hit->material->parameters), error;
+    ++pixel->shaded;
+    struct vec3 light = track_lights(scene, &path->ray, hit, hit_error, path->error.direction, seed,
+                                     pixel->sample, &error, &pixel->tally, &pixel->margin);
+    gather(pixel, path, multiply(albedo, light), multiply(albedo, error));
+}
+
+static void trace_dielectric(struct pixel *pixel, const struct tracked_path *path, const struct hit *hit,
+                             struct hit_error hit_error, struct tracked_path reflected)
+{
+    layout_vec4 ior = hit->material->parameters;
+    real eta = hit->leaving ? ior.z : ior.x, kappa = hit->leaving ? ior.w : ior.y;
+    real cos_in = at_least_zero(-dot(hit->normal, path->ray.direction));
+    struct refraction refraction = refract(path->ray.direction, hit->normal, cos_in, eta, kappa);
+    struct dielectric_error error =
+        track_refraction((double)cos_in, (double)eta, (double)kappa, path->error.direction, hit_error.normal);
+    note(&pixel->tally, refraction.total);
+    pixel->margin = smaller(pixel->margin, error.margin);
+    if (refraction.total) {
+        trace_secondary(pixel, &reflected);
+        return;
+    }
+    double reflectance = (double)refraction.reflectance;
+    double e_split = path->weight * error.reflectance + rounding(path->weight);
+    struct tracked_path refracted = reflected;
+    refracted.ray.direction = refraction.direction;
+    refracted.ray.inward = !hit->leaving;
+    refracted.error.direction = error.refracted_direction;
+    refracted.weight = path->weight * (1 - reflectance);
+    refracted.e_weight = path->e_weight * (1 - reflectance) + e_split;
+    reflected.weight = path->weight * reflectance;
+    reflected.e_weight =
+        path->e_weight * reflectance + path->weight * error.reflectance + rounding(reflected.weight);
+    trace_secondary(pixel, &refracted);
+    trace_secondary(pixel, &reflected);
+}
+
+static void trace(struct pixel *pixel, const struct tracked_path *path)
+{
+    const struct packed_scene *scene = pixel->scene;
+    const struct ray *ray = &path->ray;
+    struct hit hit;
+    bool met = find_hit(scene, ray, &hit);
+    note(&pixel->tally, (uint32_t)(hit.surface + 1) * 2 + hit.leaving);
+    pixel->margin = smaller(pixel->margin, hit_margin(scene, ray, path->error, &hit));
+    if (!met) {
+        gather(pixel, path, vector_of(scene->view.background), (struct vec3){0, 0, 0});
+        return;
+    }
+    struct hit_error hit_error = track_hit(scene, ray, path->error, &hit);
+    if (hit_error.normal > 0.5 || path->error.direction > 0.5)
+        pixel->margin = 0; /* float knows no direction here */
+    if (hit.material->tags.x == KIND_MATTE) {
+        gather_matte(pixel, path, &hit, hit_error);
+        return;
+    }
+    if (path->bounces == scene->max_bounces)
+        return;
+    struct tracked_path reflected = *path;
+    reflected.ray = (struct ray){
+        .origin = hit.point,
+        .direction = reflect(ray->direction, hit.normal, at_least_zero(-dot(hit.normal, ray->direction))),
+        .surface = hit.surface,
+        .inward = hit.leaving,
+    };
+    reflected.error =
+        (struct ray_error){hit_error.point, track_reflection(path->error.direction, hit_error.normal)};
+    ++reflected.bounces;
+    if (hit.material->tags.x == KIND_MIRROR)
+        trace_secondary(pixel, &reflected);
+    else
+        trace_dielectric(pixel, path, &hit, hit_error, reflected);
+}
+
+static struct pixel explain_pixel(const struct packed_scene *scene, int x, int y)
+{
+    struct pixel pixel = {
+        .scene = scene,
+        .seed = pixel_seed(x, y),
+        .margin = INFINITY,
+    };
+    for (uint32_t k = 0; k < (uint32_t)scene->samples; ++k) {
+        pixel.sample = k;
+        pixel.shaded = 0;
+        struct tracked_path path = {
+            .ray = camera_ray(scene, x, y, k),
+            .error = {.origin = 0, .direction = rounding(1)},
+            .weight = 1,
+        };
+        trace(&pixel, &path);
+    }
+    real count = (real)scene->samples;
+    struct vec3 flushed = {(real)SMALLEST_WEIGHT, (real)SMALLEST_WEIGHT, (real)SMALLEST_WEIGHT};
+    pixel.error = add(scale(1 / count, pixel.error), flushed);
+    pixel.radiance =
+        (struct vec3){pixel.radiance.x / count, pixel.radiance.y / count, pixel.radiance.z / count};
+    return pixel;
+}
+
+void REFERENCE_EXPLAIN(const struct packed_scene *scene, struct reference_window window, int threads,
+                       struct reference_explanation *explanations)
+{
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+    for (int row = 0; row < window.height; ++row) {
+        for (int column = 0; column < window.width; ++column) {
+            struct pixel pixel = explain_pixel(scene, window.x + column, window.y + row);
+            explanations[(size_t)row * (size_t)window.width + (size_t)column] =
+                (struct reference_explanation){
+                    .rgb = {(double)pixel.radiance.x, (double)pixel.radiance.y, (double)pixel.radiance.z},
+                    .bound = {(double)pixel.error.x, (double)pixel.error.y, (double)pixel.error.z},
+                    .margin = pixel.margin,
+                    .signature = pixel.tally.signature,
+                };
+        }
+    }
+}

@@ -1,0 +1,173 @@
+/* Running error analysis of direct light; see margin.h. */
+#ifndef REFERENCE_LIGHT_MARGIN_H
+#define REFERENCE_LIGHT_MARGIN_H
+
+#include "margin.h"
+#include "matte.h"
+
+/* A number with what float may be off by. */
+struct tracked {
+    double value, error;
+};
+
+/* Margin of one sphere's blocking the segment or not; *blocks gets which. */
+static inline double sphere_block_margin(const struct PackedSphere *sphere, int surface,
+                                         const struct segment *segment, double e_from, double e_direction,
+                                         bool *blocks)
+{
+    bool own = segment->surface == surface;
+    *blocks = sphere_blocks(sphere, surface, segment);
+    if (own && !segment->inward)
+        return INFINITY;
+    double margin = INFINITY;
+    if (sphere->surface.tags.w != 0)
+        margin = inside_margin(sphere->center_radius, segment->to, rounding(length(segment->to)));
+    if (own)
+        return margin;
+    if (sphere->surface.tags.z != 0)
+        margin = smaller(margin, inside_margin(sphere->center_radius, segment->from, e_from));
+    struct tracked_passage passage = track_passage(sphere->center_radius, segment->from, segment->direction,
+                                                   (struct ray_error){e_from, e_direction});
+    struct conjunction blocked = conjunction_begin();
+    require_positive(&blocked, passage.along, passage.e_along);
+    require_positive(&blocked, passage.clearance, passage.e_clearance);
+    require_positive(&blocked, (double)segment->length - passage.along, passage.e_along + e_from);
+    return smaller(margin, conjunction_margin(&blocked));
+}
+
+static inline double plane_block_margin(const struct PackedPlane *plane, int surface,
+                                        const struct segment *segment, double e_from, bool *blocks)
+{
+    *blocks = plane_blocks(plane, surface, segment);
+    if (plane->surface.tags.z == 0)
+        return INFINITY;
+    struct vec3 normal = vector_of(plane->normal_offset);
+    double offset = (double)plane->normal_offset.w;
+    double end = fabs((double)dot(normal, segment->to) - offset);
+    double margin = end / rounding(length(segment->to) + fabs(offset));
+    if (plane->surface.tags.x != KIND_TRANSPARENT || segment->surface == surface)
+        return margin;
+    double start = fabs((double)dot(normal, segment->from) - offset);
+    return smaller(margin, start / (e_from + rounding(length(segment->from) + fabs(offset))));
+}
+
+/* Margin of the light point's being hidden; *hides gets whether it is. */
+static inline double shadow_margin(const struct packed_scene *scene, const struct segment *segment,
+                                   double e_from, double e_direction, bool *hides)
+{
+    double weakest = INFINITY, strongest_block = 0;
+    *hides = false;
+    for (int i = 0; i < scene->sphere_count + scene->plane_count; ++i) {
+        int plane = i - scene->sphere_count;
+        bool blocks;
+        double margin =
+            plane < 0 ? sphere_block_margin(&scene->spheres[i], i, segment, e_from, e_direction, &blocks)
+                      : plane_block_margin(&scene->planes[plane], i, segment, e_from, &blocks);
+        *hides = *hides || blocks;
+        if (blocks)
+            strongest_block = larger(strongest_block, margin);
+        else
+            weakest = smaller(weakest, margin);
+    }
+    return *hides ? strongest_block : weakest;
+}
+
+/* As receive(), with its error, for a point light (quad NULL) or a point of a quad; *margin is lowered to
+ * that of its being lit or not. */
+static inline struct tracked track_receive(const struct packed_scene *scene, const struct matte_point *matte,
+                                           struct hit_error hit_error, double e_ray_direction,
+                                           const struct PackedQuadLight *quad, struct vec3 light,
+                                           double e_light, struct vec3 *to_light, struct tally *tally,
+                                           double *e_to_light, double *margin)
+{
+    const struct hit *hit = matte->hit;
+    double value = (double)receive(scene, matte, light, to_light, tally);
+    double distance = length(subtract(light, hit->point));
+    double e_way = hit_error.point + e_light + rounding(distance);
+    *e_to_light = e_way / distance + rounding(1);
+    if (!(distance * distance > NEAREST_LIGHT_SQUARED))
+        return (struct tracked){value, 0};
+    struct vec3 direction = scale(1 / (real)distance, subtract(light, hit->point));
+    double cos_in = (double)dot(hit->normal, direction), cos_out = fabs((double)matte->cos_out);
+    double e_cos_in = *e_to_light + hit_error.normal + rounding(1);
+    double e_cos_out = e_ray_direction + hit_error.normal + rounding(1);
+    if (cos_in < -e_cos_in)
+        return (struct tracked){value, 0};
+
+    /* The factor (a + b s / larger) cos_in is continuous, so neither s > 0 nor cos_in > 0 is a decision. */
+    double a = (double)hit->material->parameters.w, b = (double)hit->material->oren_nayar_b.x;
+    double s = larger(-(double)dot(direction, matte->ray->direction) - cos_in * cos_out, 0);
+    double larger_cos = larger(larger(cos_in, cos_out), e_cos_in);
+    double e_s = *e_to_light + e_ray_direction + cos_out * e_cos_in + cos_in * e_cos_out + rounding(1);
+    double in = larger(cos_in, 0);
+    double ratio = s / larger_cos;
+    double factor = (a + b * ratio) * in;
+    double e_factor = (a + b * ratio) * e_cos_in +
+                      b * smaller(1, (in + e_cos_in) / larger_cos) * (e_s + ratio * (e_cos_in + e_cos_out)) +
+                      rounding(2 * factor);
+    double falloff = 1 / (distance * distance);
+    double error = (e_factor + factor * (2 * e_way / distance + rounding(2))) * falloff;
+    struct segment segment = {hit->point, light, direction, (real)distance, hit->surface, hit->leaving};
+    struct conjunction lit = conjunction_begin();
+    bool hides;
+    double shadow = shadow_margin(scene, &segment, hit_error.point, *e_to_light, &hides);
+    require_positive(&lit, cos_in, e_cos_in);
+    require_positive(&lit, hides ? -shadow : shadow, 1);
+    if (quad) {
+        double area = length(vector_of(quad->area_normal));
+        require_positive(&lit, (double)dot(vector_of(quad->area_normal), direction),
+                         area * (*e_to_light + rounding(1)));
+    }
+    *margin = smaller(*margin, conjunction_margin(&lit));
+    return (struct tracked){value, error};
+}
+
+/* Error of reflect_lights() without albedo, for each channel; runs through the same points in the same order.
+ */
+static inline struct vec3 track_lights(const struct packed_scene *scene, const struct ray *ray,
+                                       const struct hit *hit, struct hit_error hit_error,
+                                       double e_ray_direction, uint32_t seed, uint32_t pixel_sample,
+                                       struct vec3 *sum_of_errors, struct tally *tally, double *margin)
+{
+    struct matte_point matte = {ray, hit, -dot(hit->normal, ray->direction)};
+    struct vec3 sum = {0, 0, 0}, errors = {0, 0, 0};
+    struct vec3 to_light = {0, 0, 0};
+    double e_to_light;
+    for (int i = 0; i < scene->point_light_count; ++i) {
+        struct vec3 position = vector_of(scene->point_lights[i].position);
+        struct tracked received = track_receive(scene, &matte, hit_error, e_ray_direction, NULL, position, 0,
+                                                &to_light, tally, &e_to_light, margin);
+        note(tally, received.value > 0);
+        struct vec3 intensity = vector_of(scene->point_lights[i].intensity);
+        sum = add(sum, scale((real)received.value, intensity));
+        errors = add(errors, scale((real)(received.error + rounding(received.value)), intensity));
+    }
+    for (int i = 0; i < scene->quad_light_count; ++i) {
+        const struct PackedQuadLight *quad = &scene->quad_lights[i];
+        struct vec3 edge_u = vector_of(quad->edge_u), edge_v = vector_of(quad->edge_v);
+        double area = length(vector_of(quad->area_normal));
+        double quad_sum = 0, quad_error = 0;
+        for (int k = 0; k < scene->light_samples; ++k) {
+            real u, v;
+            sobol_point(seed + (uint32_t)i, pixel_sample * (uint32_t)scene->light_samples + (uint32_t)k, &u,
+                        &v);
+            struct vec3 light = add(add(vector_of(quad->corner), scale(u, edge_u)), scale(v, edge_v));
+            double e_light = rounding(length(light) + length(edge_u) + length(edge_v));
+            struct tracked received = track_receive(scene, &matte, hit_error, e_ray_direction, quad, light,
+                                                    e_light, &to_light, tally, &e_to_light, margin);
+            double projected = (double)dot(vector_of(quad->area_normal), to_light);
+            bool lit = received.value > 0 && projected > 0;
+            note(tally, lit);
+            double e_projected = area * (e_to_light + rounding(1));
+            quad_sum += lit ? received.value * projected : 0;
+            quad_error += received.error * larger(projected, 0) + received.value * e_projected;
+        }
+        quad_error += scene->light_samples * unit_roundoff * quad_sum; /* the plain sum's */
+        sum = add(sum, scale((real)quad_sum, vector_of(quad->radiance)));
+        errors = add(errors, scale((real)(quad_error + rounding(quad_sum)), vector_of(quad->radiance)));
+    }
+    *sum_of_errors = errors;
+    return sum;
+}
+
+#endif
