@@ -19,7 +19,8 @@ struct specialization {
     VkBool32 mirrors, glass, glass_planes, rough, spheres_hold_rays, spheres_hold_lights, planes_shadow,
         mixed_order, one_roughness;
     uint32_t plane_axes, rows, entered_spheres;
-    int32_t output; /* OUTPUT_ */
+    int32_t output;                              /* OUTPUT_ */
+    VkBool32 corrected_division, corrected_root; /* see probe.h */
 };
 
 /* Finds what the scene needs, so that the pipeline holds nothing else. */

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "probe.h"
 #include "specialization.h"
 #include "vulkan_buffer.h"
 #include "whitted_spirv.h"
@@ -101,8 +102,15 @@ static enum status create_pipeline(struct tracer *tracer, const struct packed_sc
                                    const struct tracer_options *options)
 {
     const VkDevice device = tracer->context->device;
-    const struct spirv code = whitted_spirv(options->fast, tracer->scene_in_storage);
-    const struct specialization constants = specialize(scene, &tracer->shape, options->output);
+    const struct arithmetic *arithmetic = &tracer->context->arithmetic;
+    bool native = arithmetic->division_exact && arithmetic->root_exact;
+    const struct spirv code = whitted_spirv(options->fast ? WHITTED_FAST
+                                            : native      ? WHITTED_EXACT
+                                                          : WHITTED_CORRECTED,
+                                            tracer->scene_in_storage);
+    struct specialization constants = specialize(scene, &tracer->shape, options->output);
+    constants.corrected_division = !arithmetic->division_exact;
+    constants.corrected_root = !arithmetic->root_exact;
     VkSpecializationMapEntry entries[sizeof constants / sizeof(uint32_t)];
     for (uint32_t i = 0; i < sizeof entries / sizeof *entries; ++i)
         entries[i] = (VkSpecializationMapEntry){i, i * (uint32_t)sizeof(uint32_t), sizeof(uint32_t)};
@@ -272,7 +280,9 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
     tracer->tile_pixels = options->tile_pixels ? options->tile_pixels : choose_tile_pixels(context, scene);
     tracer->picture_width = (unsigned)scene->width;
     tracer->picture_height = (unsigned)scene->height;
-    enum status status = upload_scene(tracer, scene);
+    enum status status = options->fast ? STATUS_DONE : probe_require_exact(context);
+    if (status == STATUS_DONE)
+        status = upload_scene(tracer, scene);
     if (status == STATUS_DONE)
         status = create_picture(tracer);
     if (status == STATUS_DONE)

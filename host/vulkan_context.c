@@ -7,6 +7,7 @@
 #include <strings.h>
 
 #include "number.h"
+#include "probe.h"
 
 static const char validation_layer[] = "VK_LAYER_KHRONOS_validation";
 
@@ -283,7 +284,8 @@ static const char *type_name(VkPhysicalDeviceType type)
     return (size_t)type < sizeof names / sizeof *names ? names[type] : "unknown";
 }
 
-static void print_device(VkPhysicalDevice device, uint32_t index, bool chosen)
+/* Returns whether it can be used. */
+static bool print_device(VkPhysicalDevice device, uint32_t index, bool chosen)
 {
     VkPhysicalDeviceDriverProperties driver = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties2 = {
@@ -296,19 +298,37 @@ static void print_device(VkPhysicalDevice device, uint32_t index, bool chosen)
     VkPhysicalDeviceFeatures features;
     vkGetPhysicalDeviceFeatures(device, &features);
     printf("%c %" PRIu32 "  %s\n", chosen ? '*' : ' ', index, properties->deviceName);
+    bool usable = rank_device(device, properties) > 0;
     printf("      type            %s\n", type_name(properties->deviceType));
     printf("      driver          %s %s\n", driver.driverName, driver.driverInfo);
     printf("      Vulkan          %u.%u.%u%s\n", VK_API_VERSION_MAJOR(properties->apiVersion),
            VK_API_VERSION_MINOR(properties->apiVersion), VK_API_VERSION_PATCH(properties->apiVersion),
-           rank_device(device, properties) == 0
-               ? " (cannot be used: Vulkan 1.2 and a compute queue are needed)"
-               : "");
+           usable ? "" : " (cannot be used: Vulkan 1.2 and a compute queue are needed)");
     printf("      fp64            %s\n", features.shaderFloat64 ? "yes" : "no");
     printf("      storage buffer  %" PRIu32 " bytes\n", limits->maxStorageBufferRange);
     printf("      uniform buffer  %" PRIu32 " bytes\n", limits->maxUniformBufferRange);
     printf("      group           %" PRIu32 " x %" PRIu32 " x %" PRIu32 ", %" PRIu32 " invocations\n",
            limits->maxComputeWorkGroupSize[0], limits->maxComputeWorkGroupSize[1],
            limits->maxComputeWorkGroupSize[2], limits->maxComputeWorkGroupInvocations);
+    return usable;
+}
+
+/* Opens the device for it. */
+static enum status print_arithmetic(const struct vulkan_options *options, uint32_t index)
+{
+    char choice[16], text[256];
+    struct vulkan_context *context;
+    snprintf(choice, sizeof choice, "%" PRIu32, index);
+    enum status status = vulkan_context_create(&(struct vulkan_options){choice, options->validate}, &context);
+    if (status != STATUS_DONE)
+        return status;
+    status = probe_arithmetic(context);
+    if (status == STATUS_DONE) {
+        probe_describe(&context->arithmetic, text, sizeof text);
+        printf("      arithmetic      %s\n", text);
+    }
+    enum status closed = vulkan_context_destroy(&context);
+    return status == STATUS_DONE ? closed : status;
 }
 
 enum status vulkan_print_devices(const struct vulkan_options *options)
@@ -323,8 +343,9 @@ enum status vulkan_print_devices(const struct vulkan_options *options)
     VkPhysicalDevice *devices = status == STATUS_DONE ? list_devices(context->instance, &count) : NULL;
     if (devices) {
         uint32_t chosen = choose_device(options->device, devices, count);
-        for (uint32_t i = 0; i < count; ++i)
-            print_device(devices[i], i, i == chosen);
+        for (uint32_t i = 0; i < count && status == STATUS_DONE; ++i)
+            if (print_device(devices[i], i, i == chosen))
+                status = print_arithmetic(options, i);
         if (chosen == count)
             status = options->device ? STATUS_REFUSED : STATUS_UNABLE;
     } else {

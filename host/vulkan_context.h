@@ -4,6 +4,7 @@
 #include <stdatomic.h>
 #include <vulkan/vulkan.h>
 
+#include "arithmetic.h"
 #include "status.h"
 
 /* An instance and one device with a compute queue. */
@@ -18,6 +19,7 @@ struct vulkan_context {
     uint32_t queue_family;
     uint32_t timestamp_bits; /* 0: the queue has no timestamps */
     VkQueue queue;
+    struct arithmetic arithmetic; /* not known before probe_arithmetic() */
     atomic_uint validation_messages;
 };
 

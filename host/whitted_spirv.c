@@ -1,15 +1,26 @@
 #include "whitted_spirv.h"
 
+#include "whitted_corrected.h"
+#include "whitted_corrected_storage.h"
 #include "whitted_exact.h"
 #include "whitted_exact_storage.h"
 #include "whitted_fast.h"
 #include "whitted_fast_storage.h"
 
-struct spirv whitted_spirv(bool fast, bool scene_in_storage)
+struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage)
 {
-    static const struct spirv variants[2][2] = {
-        {{whitted_exact, sizeof whitted_exact}, {whitted_exact_storage, sizeof whitted_exact_storage}},
-        {{whitted_fast, sizeof whitted_fast}, {whitted_fast_storage, sizeof whitted_fast_storage}},
+#define VARIANT(name)                                                                                        \
+    {                                                                                                        \
+        {name, sizeof name},                                                                                 \
+        {                                                                                                    \
+            name##_storage, sizeof name##_storage                                                            \
+        }                                                                                                    \
+    }
+    static const struct spirv variants[][2] = {
+        [WHITTED_EXACT] = VARIANT(whitted_exact),
+        [WHITTED_CORRECTED] = VARIANT(whitted_corrected),
+        [WHITTED_FAST] = VARIANT(whitted_fast),
     };
-    return variants[fast][scene_in_storage];
+#undef VARIANT
+    return variants[variant][scene_in_storage];
 }

@@ -10,8 +10,13 @@ struct spirv {
     size_t size; /* bytes */
 };
 
-/* shaders/whitted.comp as compiled by the build: exact or fast, the scene in uniform or in storage buffers.
- */
-struct spirv whitted_spirv(bool fast, bool scene_in_storage);
+enum whitted_variant {
+    WHITTED_EXACT,
+    WHITTED_CORRECTED, /* for a device whose / or sqrt is not exact */
+    WHITTED_FAST,
+};
+
+/* shaders/whitted.comp as compiled by the build, the scene in uniform or in storage buffers. */
+struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage);
 
 #endif

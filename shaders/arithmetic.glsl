@@ -15,6 +15,46 @@
 #define real3 vec3
 #endif
 
+#ifdef INEXACT_NATIVE
+#include "inexact_native.glsl"
+#else
+real native_quotient(real a, real b)
+{
+    exact real quotient = a / b;
+    return quotient;
+}
+
+real native_root(real a)
+{
+    exact real root = sqrt(a);
+    return root;
+}
+#endif
+
+#ifdef CORRECTED
+#include "corrected.glsl"
+#endif
+
+// a / b and the root of a, correctly rounded except with FAST: by the device itself or, for a device that is not
+// exact (see host/probe.h), corrected. CORRECTED is a define of its own because dead code costs lavapipe 50 ms.
+real divide(real a, real b)
+{
+#ifdef CORRECTED
+    if (CORRECTED_DIVISION)
+        return corrected_quotient(a, b);
+#endif
+    return native_quotient(a, b);
+}
+
+real square_root(real a)
+{
+#ifdef CORRECTED
+    if (CORRECTED_ROOT)
+        return corrected_root(a);
+#endif
+    return native_root(a);
+}
+
 real dot3(real3 a, real3 b)
 {
 #ifdef FAST
@@ -37,7 +77,7 @@ real3 unit(real3 v)
 #ifdef FAST
     return normalize(v);
 #else
-    exact real inverse_length = real(1.0) / sqrt(dot3(v, v));
+    exact real inverse_length = divide(real(1), square_root(dot3(v, v)));
     exact real3 direction = v * inverse_length;
     return direction;
 #endif

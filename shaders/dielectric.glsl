@@ -19,15 +19,18 @@ Refraction refracted(real3 direction, real3 facing_normal, real cos_in, real eta
     exact real eta_cos = eta * cos_in;
     exact real cos_out_squared = kappa + eta_cos * eta_cos;
     bool total = !(cos_out_squared > real(0));
-    exact real cos_out = sqrt(total ? real(1) : cos_out_squared);
-    exact real bend = kappa / (eta_cos + cos_out);
+    exact real cos_out = square_root(total ? real(1) : cos_out_squared);
+    exact real cosine_sum = eta_cos + cos_out;
+    exact real bend = divide(kappa, cosine_sum);
     exact real3 bent = eta * direction - bend * facing_normal;
 
     // r_s = (eta cos_in - cos_out) / (eta cos_in + cos_out), r_p = r_s cos(i + o) / cos(i - o)
-    exact real r_s = bend / (eta_cos + cos_out);
+    exact real r_s = divide(bend, cosine_sum);
     exact real cosines = cos_in * cos_out;
     exact real sines = eta * (real(1) - cos_in * cos_in);
-    exact real ratio = (cosines - sines) / (cosines + sines);
+    exact real below = cosines - sines;
+    exact real above = cosines + sines;
+    exact real ratio = divide(below, above);
     exact real reflectance = (real(0.5) * (r_s * r_s)) * (real(1) + ratio * ratio);
     return Refraction(total, reflectance, renormalized(bent));
 }

@@ -25,7 +25,7 @@ Passage pass_sphere(real3 to_center, real3 direction, real radius)
 
 real half_chord_of(Passage passage)
 {
-    exact real half_chord = sqrt(passage.half_chord_squared > real(0) ? passage.half_chord_squared : real(0));
+    exact real half_chord = square_root(passage.half_chord_squared > real(0) ? passage.half_chord_squared : real(0));
     return half_chord;
 }
 
@@ -134,7 +134,7 @@ void meet_plane(Ray ray, int i, inout Hit nearest)
     } else {
         height = height > real(0) ? height : real(0); // an opaque plane is never behind the ray's origin
     }
-    exact real distance = height / -slope;
+    exact real distance = divide(height, -slope);
     take(met && ray.surface != SPHERES + i && comes_first(distance, material.tags.y, nearest), nearest, distance, SPHERES + i, leaving, shape, material);
 }
 

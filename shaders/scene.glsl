@@ -22,6 +22,8 @@ layout(constant_id = 18) const uint PLANE_AXES = 0u; // two bits a plane: normal
 layout(constant_id = 19) const uint ROWS = 1u; // pixels an invocation renders, one below the other
 layout(constant_id = 20) const uint ENTERED_SPHERES = ~0u; // a bit for each sphere that rays can run inside of
 layout(constant_id = 21) const int OUTPUT = OUTPUT_RADIANCE; // what a pixel's three values are
+layout(constant_id = 22) const bool CORRECTED_DIVISION = true; // with CORRECTED: the device's own / is inexact
+layout(constant_id = 23) const bool CORRECTED_ROOT = true;     // with CORRECTED: the device's own sqrt is
 
 const bool SECONDARY_RAYS = (MIRRORS || GLASS) && MAX_BOUNCES > 0;
 

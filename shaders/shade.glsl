@@ -19,7 +19,7 @@ real matte_factor(Matte matte, real3 to_light, real cos_in)
     }
     exact real in_plane = -dot3(to_light, matte.ray_direction) - cos_in * matte.cos_out;
     exact real larger = cos_in > matte.cos_out ? cos_in : matte.cos_out;
-    exact real sin_tan = in_plane > real(0) ? in_plane / larger : real(0);
+    exact real sin_tan = in_plane > real(0) ? divide(in_plane, larger) : real(0);
     exact real factor = (matte.a + matte.b * sin_tan) * cos_in;
     return factor;
 }
@@ -30,8 +30,8 @@ real point_irradiance(Matte matte, real3 light, out real3 to_light, inout Tally 
 {
     exact real3 way = light - matte.point;
     exact real distance_squared = dot3(way, way);
-    exact real distance = sqrt(distance_squared);
-    exact real inverse = real(1.0) / distance;
+    exact real distance = square_root(distance_squared);
+    exact real inverse = divide(real(1), distance);
     exact real3 direction = way * inverse;
     to_light = direction;
     exact real cos_in = dot3(matte.normal, direction);

@@ -4,9 +4,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
+#include "scene.glsl"
 #include "arithmetic.glsl"
 #include "sampling.glsl"
-#include "scene.glsl"
 #include "tally.glsl"
 #include "intersect.glsl"
 #include "shade.glsl"
@@ -208,7 +208,9 @@ real3 pixel_radiance(uvec2 position)
             sequence_point(sequence, uint(k), x, y);
             trace(pixel, primary_path(position, x, y));
         }
-        exact real3 mean = pixel.radiance / real(SAMPLES);
+        exact real3 mean;
+        for (int c = 0; c < 3; ++c)
+            mean[c] = divide(pixel.radiance[c], real(SAMPLES));
         pixel.radiance = mean;
     }
     if (OUTPUT == OUTPUT_RAYS)

@@ -1,0 +1,132 @@
+// Division and square root of floats, correctly rounded (to nearest, ties to even) on any device. Vulkan promises
+// division to 2.5 ulp and leaves sqrt to the worse of 1 / inversesqrt, but integers are exact everywhere.
+//
+// The native operation on operands scaled to [1, 4) only estimates the 24-bit integer result q. The remainder of
+// q is then computed modulo 2^32, which is its true value as long as the estimate is off by less than 127 (root:
+// 60) units in the last place; it tells by how much to move q, and how to round. Neither operation has ties: twice
+// the remainder is never equal to the divisor, nor is 2 q + 1 ever the root of an integer multiple of four (Muller
+// et al., "Handbook of Floating-Point Arithmetic", 2nd edition, sections 4.8 and 5.3).
+//
+// A result below 2^-126 is 0 of the right sign; denormal operands count as what they are; a NaN is 0x7fc00000.
+
+const uint SIGN_BIT = 0x80000000u;
+const uint INFINITY_BITS = 0x7f800000u;
+const uint NAN_BITS = 0x7fc00000u;
+const uint ONE_BITS = 0x3f800000u;
+const uint TWO_BITS = 0x40000000u;
+const uint IMPLICIT_BIT = 0x00800000u;
+const uint FRACTION_BITS = 0x007fffffu;
+const int EXPONENT_SHIFT = 23;
+
+// The positive finite number of these bits is mantissa * 2^(exponent - 150) with 2^23 <= mantissa < 2^24.
+void take_apart(uint bits, out uint mantissa, out int exponent)
+{
+    exponent = int(bits >> EXPONENT_SHIFT);
+    mantissa = bits & FRACTION_BITS;
+    if (exponent == 0) {
+        int shift = EXPONENT_SHIFT - findMSB(mantissa);
+        mantissa <<= shift;
+        exponent = 1 - shift;
+    } else {
+        mantissa |= IMPLICIT_BIT;
+    }
+}
+
+// mantissa / 2^23, or twice that.
+real scaled(uint mantissa, bool doubled)
+{
+    return uintBitsToFloat((doubled ? TWO_BITS : ONE_BITS) | (mantissa & FRACTION_BITS));
+}
+
+// The 24-bit integer near 2^23 x for x about 1 to 2.
+uint estimate_of(real x)
+{
+    return uint(x * real(8388608));
+}
+
+// a / b where that is infinite, 0 or NaN because an operand is; all without signs.
+bool special_quotient(uint a, uint b, out uint quotient)
+{
+    quotient = b == INFINITY_BITS ? 0u : INFINITY_BITS; // of a finite a by infinity, or of infinity or by 0
+    if (a == 0u)
+        quotient = 0u;
+    if (a > INFINITY_BITS || b > INFINITY_BITS || (a == b && (a == 0u || a == INFINITY_BITS)))
+        quotient = NAN_BITS;
+    return a == 0u || b == 0u || a >= INFINITY_BITS || b >= INFINITY_BITS;
+}
+
+real corrected_quotient(real a, real b)
+{
+    uint bits_a = floatBitsToUint(a);
+    uint bits_b = floatBitsToUint(b);
+    uint sign = (bits_a ^ bits_b) & SIGN_BIT;
+    bits_a &= ~SIGN_BIT;
+    bits_b &= ~SIGN_BIT;
+    uint special;
+    if (special_quotient(bits_a, bits_b, special))
+        return uintBitsToFloat(sign | special);
+
+    uint dividend, divisor;
+    int exponent_a, exponent_b;
+    take_apart(bits_a, dividend, exponent_a);
+    take_apart(bits_b, divisor, exponent_b);
+    int exponent = exponent_a - exponent_b + 127;
+    bool doubled = dividend < divisor; // the dividend, so that 1 <= dividend / divisor < 2
+    real scaled_a = scaled(dividend, doubled);
+    real scaled_b = scaled(divisor, false);
+    if (doubled) {
+        dividend <<= 1;
+        --exponent;
+    }
+
+    uint quotient = estimate_of(native_quotient(scaled_a, scaled_b));
+    int remainder = int((dividend << EXPONENT_SHIFT) - quotient * divisor);
+    while (remainder < 0) {
+        --quotient;
+        remainder += int(divisor);
+    }
+    while (remainder >= int(divisor)) {
+        ++quotient;
+        remainder -= int(divisor);
+    }
+    if (2 * remainder > int(divisor))
+        ++quotient;
+
+    if (exponent <= 0)
+        return uintBitsToFloat(sign);
+    if (exponent >= 255)
+        return uintBitsToFloat(sign | INFINITY_BITS);
+    return uintBitsToFloat(sign | ((uint(exponent - 1) << EXPONENT_SHIFT) + quotient)); // a carry is welcome
+}
+
+real corrected_root(real a)
+{
+    uint bits = floatBitsToUint(a);
+    if ((bits & ~SIGN_BIT) == 0u || bits == INFINITY_BITS)
+        return a;
+    if (bits > INFINITY_BITS) // negative or NaN
+        return uintBitsToFloat(NAN_BITS);
+
+    uint mantissa;
+    int exponent;
+    take_apart(bits, mantissa, exponent);
+    // The root of mantissa * 2^23 or, where the power of two would be odd, of mantissa * 2^24.
+    bool doubled = (exponent & 1) == 0;
+    uint square = mantissa << (doubled ? 24 : 23); // modulo 2^32
+
+    uint root = estimate_of(native_root(scaled(mantissa, doubled)));
+    int remainder = int(square - root * root);
+    while (remainder < 0) {
+        --root;
+        remainder += int(2u * root + 1u);
+    }
+    while (remainder > int(2u * root)) {
+        remainder -= int(2u * root + 1u);
+        ++root;
+    }
+    if (remainder > int(root)) // above (root + 1/2)^2 = root^2 + root + 1/4
+        ++root;
+
+    uint biased = uint((exponent + 127) >> 1);
+    return uintBitsToFloat(((biased - 1u) << EXPONENT_SHIFT) + root);
+}
