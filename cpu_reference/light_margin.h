@@ -20,12 +20,17 @@ static inline double sphere_block_margin(const struct PackedSphere *sphere, int 
     if (own && !segment->inward)
         return INFINITY;
     double margin = INFINITY;
-    if (sphere->surface.tags.w != 0)
+    bool inside = own;
+    if (sphere->surface.tags.w != 0) {
         margin = inside_margin(sphere->center_radius, segment->to, rounding(length(segment->to)));
-    if (own)
-        return margin;
-    if (sphere->surface.tags.z != 0)
+        inside = inside || contains(sphere, segment->to);
+    }
+    if (!own && sphere->surface.tags.z != 0) {
         margin = smaller(margin, inside_margin(sphere->center_radius, segment->from, e_from));
+        inside = inside || contains(sphere, segment->from);
+    }
+    if (inside)
+        return margin; /* where the ends lie decides all */
     struct tracked_passage passage = track_passage(sphere->center_radius, segment->from, segment->direction,
                                                    (struct ray_error){e_from, e_direction});
     struct conjunction blocked = conjunction_begin();

@@ -15,7 +15,7 @@ static const double unit_roundoff = 0x1p-24; /* float's */
  * half a unit each. */
 static inline double rounding(double magnitude)
 {
-    return 2 * unit_roundoff * magnitude;
+    return 3 * unit_roundoff * magnitude;
 }
 
 static inline double length(struct vec3 v)
@@ -102,6 +102,11 @@ static inline double inside_margin(layout_vec4 center_radius, struct vec3 point,
     return fabs(apart - radius) / (e_point + rounding(apart + radius));
 }
 
+static inline bool contains(const struct PackedSphere *sphere, struct vec3 point)
+{
+    return lies_inside(subtract(vector_of(sphere->center_radius), point), sphere->center_radius.w);
+}
+
 /* Error of a distance along the ray to the surface, which the ray meets. */
 static inline double distance_error(const struct packed_scene *scene, const struct ray *ray, int surface,
                                     double distance, struct ray_error error)
@@ -126,8 +131,15 @@ static inline double sphere_margin(const struct packed_scene *scene, int i, cons
         return INFINITY; /* certain either way */
     struct tracked_passage passage = track_passage(sphere->center_radius, ray->origin, ray->direction, error);
     double margin = INFINITY;
-    if (sphere->surface.tags.z != 0)
+    if (sphere->surface.tags.z != 0) {
         margin = inside_margin(sphere->center_radius, ray->origin, error.origin);
+        if (contains(sphere, ray->origin)) { /* certain to be met, at its far side */
+            double back = passage.along + passage.half_chord;
+            double behind =
+                fabs(nearest_distance - back) / (e_nearest + passage.e_along + passage.e_half_chord);
+            return smaller(margin, behind);
+        }
+    }
     struct conjunction met = conjunction_begin();
     require_positive(&met, passage.along, passage.e_along);
     require_positive(&met, passage.clearance, passage.e_clearance);
