@@ -10,8 +10,8 @@
 struct tracer;
 
 struct tracer_options {
-    bool fast;       /* contraction and built-in functions allowed */
-    int output;      /* OUTPUT_ of scene_layout.h */
+    bool fast;                          /* contraction and built-in functions allowed */
+    int output;                         /* OUTPUT_ of scene_layout.h */
     unsigned group_width, group_height; /* invocations; 0: a choice that suits the device */
     unsigned tile_pixels;               /* most pixels a dispatch; 0: likewise */
 };
