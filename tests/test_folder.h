@@ -11,7 +11,7 @@
 /* A folder of a test's own, which is its working directory from setup to teardown. */
 static char test_folder[] = "/tmp/vkwhitted-test-XXXXXX";
 
-static int test_folder_setup(void **state)
+static inline int test_folder_setup(void **state)
 {
     (void)state;
     strcpy(test_folder + sizeof test_folder - sizeof "XXXXXX", "XXXXXX");
@@ -35,7 +35,7 @@ static inline int test_folder_files(int remove_them)
     return count;
 }
 
-static int test_folder_teardown(void **state)
+static inline int test_folder_teardown(void **state)
 {
     (void)state;
     test_folder_files(1);

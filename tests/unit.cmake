@@ -11,9 +11,16 @@ endfunction()
 add_unit_test(compare)
 add_unit_test(image)
 add_unit_test(number)
+add_unit_test(pack)
 add_unit_test(output_file)
 add_unit_test(scene_file)
 add_unit_test(srgb)
+
+# These open a device.
+foreach(module total_reflection tracer values)
+    add_unit_test(${module})
+    set_tests_properties(unit/${module} PROPERTIES LABELS "unit;device" TIMEOUT 600)
+endforeach()
 
 if(CMAKE_C_COMPILER_ID MATCHES Clang AND NOT VKWHITTED_SANITIZE)
     # The host library is compiled a second time, for libFuzzer's counters.
