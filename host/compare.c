@@ -8,27 +8,27 @@
 #include "image_formats.h"
 #include "viridis.h"
 
-static bool same_bits(float a, float b)
+static bool same_bits(double a, double b)
 {
     return memcmp(&a, &b, sizeof a) == 0;
 }
 
-static double larger_magnitude(float a, float b)
+static double larger_magnitude(double a, double b)
 {
-    return fmax(fabs((double)a), fabs((double)b));
+    return fmax(fabs(a), fabs(b));
 }
 
 /* |a - b|; see struct comparison for what is not finite. */
-static double channel_error(float a, float b)
+static double channel_error(double a, double b)
 {
     if (isnan(a) && isnan(b))
         return 0.0;
     if (!isfinite(a) || !isfinite(b))
         return same_bits(a, b) ? 0.0 : INFINITY;
-    return fabs((double)a - (double)b);
+    return fabs(a - b);
 }
 
-static bool agree(float a, float b, const struct tolerance *tolerance)
+static bool agree(double a, double b, const struct tolerance *tolerance)
 {
     if (!tolerance || same_bits(a, b))
         return same_bits(a, b);
@@ -60,6 +60,12 @@ static bool same_size(const struct image *a, const struct image *b)
     return false;
 }
 
+/* In the best precision that the picture has. */
+static double value_at(const struct image *image, size_t index)
+{
+    return image->rgb64 ? image->rgb64[index] : (double)image->rgb[index];
+}
+
 enum status image_compare(const struct image *a, const struct image *b, const struct tolerance *tolerance,
                           struct comparison *comparison)
 {
@@ -68,17 +74,13 @@ enum status image_compare(const struct image *a, const struct image *b, const st
         return STATUS_REFUSED;
 
     struct worst disagreeing = {0}, unequal = {0};
-    size_t row_channels = (size_t)a->width * 3;
     for (unsigned y = 0; y < a->height; y++) {
-        const float *row_a = a->rgb + y * row_channels;
-        const float *row_b = b->rgb + y * row_channels;
-        if (memcmp(row_a, row_b, row_channels * sizeof(float)) == 0)
-            continue;
+        size_t row = (size_t)y * a->width * 3;
         for (unsigned x = 0; x < a->width; x++) {
             bool pixel_same = true, pixel_agrees = true;
             for (unsigned channel = 0; channel < 3; channel++) {
-                float value_a = row_a[(size_t)x * 3 + channel];
-                float value_b = row_b[(size_t)x * 3 + channel];
+                double value_a = value_at(a, row + (size_t)x * 3 + channel);
+                double value_b = value_at(b, row + (size_t)x * 3 + channel);
                 if (same_bits(value_a, value_b))
                     continue;
                 pixel_same = false;

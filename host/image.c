@@ -39,8 +39,18 @@ enum status image_create(unsigned width, unsigned height, struct image *image)
     return STATUS_DONE;
 }
 
+enum status image_widen(struct image *image)
+{
+    image->rgb64 = calloc((size_t)image->width * image->height * 3 + 1, sizeof *image->rgb64);
+    if (image->rgb64)
+        return STATUS_DONE;
+    log_error("no memory for a picture of %ux%u pixels in double precision", image->width, image->height);
+    return STATUS_UNABLE;
+}
+
 void image_destroy(struct image *image)
 {
     free(image->rgb);
+    free(image->rgb64);
     *image = (struct image){0};
 }

@@ -9,10 +9,14 @@
 struct image {
     unsigned width, height;
     float *rgb;
+    double *rgb64; /* the same before rounding to float, where that is wanted; otherwise NULL */
 };
 
 /* A black image; STATUS_UNABLE (reported) if the machine's memory cannot hold it. */
 enum status image_create(unsigned width, unsigned height, struct image *image);
+
+/* Gives a black image room for double precision; STATUS_UNABLE (reported) without memory. */
+enum status image_widen(struct image *image);
 void image_destroy(struct image *image);
 
 #endif

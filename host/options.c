@@ -70,7 +70,6 @@ static int takers(int id)
 {
     switch (id) {
     case 'o':
-    case OPTION_PRECISION:
     case OPTION_TRANSFER:
     case OPTION_STATS:
     case OPTION_REPEAT:
@@ -279,8 +278,10 @@ static enum status check_consistency(const struct options *options)
         problem = "expected a scene file";
     else if (options->command == COMMAND_RENDER && options->scene_count > 1)
         problem = "render takes one scene file";
-    else if (options->backend == BACKEND_VULKAN && options->precision != PRECISION_FLOAT)
-        problem = "--precision double and quad need --backend cpu";
+    else if (options->precision == PRECISION_QUAD && options->backend == BACKEND_VULKAN)
+        problem = "--precision quad needs --backend cpu";
+    else if (options->precision != PRECISION_FLOAT && (options->fast || options->against != PRECISION_FLOAT))
+        problem = "--fast and --against go with --precision float";
     else if (options->backend == BACKEND_CPU && options->fast)
         problem = "--fast is a device's pipeline; it does not go with --backend cpu";
     else if (options->backend == BACKEND_CPU && (options->vulkan.device || options->vulkan.validate))

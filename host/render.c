@@ -1,6 +1,7 @@
 #include "render.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 const char *precision_name(enum precision precision)
@@ -31,6 +32,8 @@ static enum status render_repeatedly(render_once *render, void *renderer, const 
     double *warm_ms = calloc(plan->repeat + 1, sizeof *warm_ms);
     enum status status =
         warm_ms ? image_create(plan->window.width, plan->window.height, &rendering->image) : STATUS_UNABLE;
+    if (status == STATUS_DONE && plan->precision == PRECISION_DOUBLE)
+        status = image_widen(&rendering->image);
     struct progress progress;
     uint64_t pixels = (uint64_t)plan->window.width * plan->window.height;
     progress_start(&progress, "rendering", pixels * (plan->repeat + 1), plan->quiet);
@@ -65,7 +68,12 @@ static enum status render_output(struct vulkan_context *context, const struct re
     enum status status = image_create(plan->window.width, plan->window.height, image);
     if (status == STATUS_DONE)
         status = tracer_create(context, plan->scene,
-                               &(struct tracer_options){.fast = plan->fast, .output = output}, &tracer);
+                               &(struct tracer_options){
+                                   .double_precision = plan->precision == PRECISION_DOUBLE,
+                                   .fast = plan->fast,
+                                   .output = output,
+                               },
+                               &tracer);
     if (status == STATUS_DONE)
         status = tracer_render(tracer, plan->window, image, &progress, &unused_ms);
     progress_end(&progress);
@@ -121,8 +129,12 @@ enum status render_on_device(struct vulkan_context *context, const struct render
     *rendering = (struct rendering){0};
     double start = clock_ms();
     struct tracer *tracer;
-    enum status status =
-        tracer_create(context, plan->scene, &(struct tracer_options){.fast = plan->fast}, &tracer);
+    enum status status = tracer_create(context, plan->scene,
+                                       &(struct tracer_options){
+                                           .double_precision = plan->precision == PRECISION_DOUBLE,
+                                           .fast = plan->fast,
+                                       },
+                                       &tracer);
     if (status != STATUS_DONE)
         return status;
     rendering->setup_ms = clock_ms() - start;
@@ -176,6 +188,8 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
         size_t values = (size_t)window->width * height * 3;
         for (size_t i = 0; i < values; ++i)
             image->rgb[(size_t)y * window->width * 3 + i] = (float)band[i];
+        if (image->rgb64)
+            memcpy(image->rgb64 + (size_t)y * window->width * 3, band, values * sizeof *band);
         progress_advance(progress, (uint64_t)window->width * height);
     }
     free(band);

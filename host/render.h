@@ -15,7 +15,7 @@ const char *precision_name(enum precision precision);
 struct render_plan {
     const struct packed_scene *scene;
     struct window window;
-    enum precision precision; /* on the CPU */
+    enum precision precision; /* quad only on the CPU */
     unsigned threads;         /* of the CPU; 0: one a processor */
     bool fast;                /* on a device */
     unsigned repeat;          /* warm renderings after the first */

@@ -14,7 +14,7 @@ enum { CHANNELS = 3 };
 
 struct tracer {
     struct vulkan_context *context;
-    bool scene_in_storage;
+    bool scene_in_storage, double_precision;
     struct group_shape shape;
     unsigned tile_pixels;
     struct vulkan_buffer scene, picture;
@@ -36,6 +36,11 @@ struct tracer {
 struct push_constants {
     uint32_t tile_x, tile_y, tile_width, tile_height, picture_width, picture_height;
 };
+
+static size_t pixel_size(const struct tracer *tracer)
+{
+    return CHANNELS * (tracer->double_precision ? sizeof(double) : sizeof(float));
+}
 
 /* Lays the scene's parts out in one buffer; a part has room for at least one element. */
 static enum status upload_scene(struct tracer *tracer, const struct packed_scene *scene)
@@ -78,7 +83,7 @@ static enum status upload_scene(struct tracer *tracer, const struct packed_scene
 
 static enum status create_picture(struct tracer *tracer)
 {
-    VkDeviceSize size = (VkDeviceSize)tracer->tile_pixels * CHANNELS * sizeof(float);
+    VkDeviceSize size = (VkDeviceSize)tracer->tile_pixels * pixel_size(tracer);
     const VkMemoryPropertyFlags readable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
                                            VK_MEMORY_PROPERTY_HOST_COHERENT_BIT |
                                            VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
@@ -104,9 +109,10 @@ static enum status create_pipeline(struct tracer *tracer, const struct packed_sc
     const VkDevice device = tracer->context->device;
     const struct arithmetic *arithmetic = &tracer->context->arithmetic;
     bool native = arithmetic->division_exact && arithmetic->root_exact;
-    const struct spirv code = whitted_spirv(options->fast ? WHITTED_FAST
-                                            : native      ? WHITTED_EXACT
-                                                          : WHITTED_CORRECTED,
+    const struct spirv code = whitted_spirv(options->double_precision ? WHITTED_DOUBLE
+                                            : options->fast           ? WHITTED_FAST
+                                            : native                  ? WHITTED_EXACT
+                                                                      : WHITTED_CORRECTED,
                                             tracer->scene_in_storage);
     struct specialization constants = specialize(scene, &tracer->shape, options->output);
     constants.corrected_division = !arithmetic->division_exact;
@@ -257,7 +263,7 @@ static unsigned choose_tile_pixels(const struct vulkan_context *context, const s
     uint64_t work_per_pixel =
         (uint64_t)scene->samples * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
     uint64_t pixels = (UINT64_C(1) << 26) / work_per_pixel;
-    uint64_t fitting = context->properties.limits.maxStorageBufferRange / (CHANNELS * sizeof(float));
+    uint64_t fitting = context->properties.limits.maxStorageBufferRange / (CHANNELS * sizeof(double));
     pixels = pixels < 1024 ? 1024 : pixels;
     pixels = pixels > 1 << 21 ? 1 << 21 : pixels;
     return (unsigned)(pixels < fitting ? pixels : fitting);
@@ -272,6 +278,7 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
         return STATUS_UNABLE;
     }
     tracer->context = context;
+    tracer->double_precision = options->double_precision;
     /* A processor's lanes share the loading of the scene over many pixels; a GPU wants many invocations. */
     bool on_processor = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     tracer->shape.rows = on_processor ? 16 : 1;
@@ -281,6 +288,10 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
     tracer->picture_width = (unsigned)scene->width;
     tracer->picture_height = (unsigned)scene->height;
     enum status status = options->fast ? STATUS_DONE : probe_require_exact(context);
+    if (status == STATUS_DONE && options->double_precision && !context->has_float64) {
+        log_error("%s has no double precision (shaderFloat64)", context->properties.deviceName);
+        status = STATUS_UNABLE;
+    }
     if (status == STATUS_DONE)
         status = upload_scene(tracer, scene);
     if (status == STATUS_DONE)
@@ -357,7 +368,7 @@ static enum status record_tile(struct tracer *tracer, struct window tile)
                        VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
         vkCmdCopyBuffer(commands, tracer->picture.buffer, tracer->staging.buffer, 1,
                         &(VkBufferCopy){
-                            .size = (VkDeviceSize)tile.width * tile.height * CHANNELS * sizeof(float),
+                            .size = (VkDeviceSize)tile.width * tile.height * pixel_size(tracer),
                         });
         record_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                        VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
@@ -405,10 +416,31 @@ error:
     return STATUS_UNABLE;
 }
 
+/* Copies the finished tile into its place in the image of the window. */
+static void copy_tile(const struct tracer *tracer, struct window window, struct window tile,
+                      struct image *image)
+{
+    const void *pixels = tracer->staging.buffer ? tracer->staging.mapped : tracer->picture.mapped;
+    const float *floats = pixels;
+    const double *doubles = pixels;
+    size_t count = (size_t)tile.width * CHANNELS;
+    for (unsigned row = 0; row < tile.height; ++row) {
+        size_t from = row * count;
+        size_t to = ((size_t)(tile.y - window.y + row) * window.width + (tile.x - window.x)) * CHANNELS;
+        if (!tracer->double_precision) {
+            memcpy(image->rgb + to, floats + from, count * sizeof *floats);
+            continue;
+        }
+        for (size_t i = 0; i < count; ++i)
+            image->rgb[to + i] = (float)doubles[from + i];
+        if (image->rgb64)
+            memcpy(image->rgb64 + to, doubles + from, count * sizeof *doubles);
+    }
+}
+
 enum status tracer_render(struct tracer *tracer, struct window window, struct image *image,
                           struct progress *progress, double *dispatch_ms)
 {
-    const float *pixels = tracer->staging.buffer ? tracer->staging.mapped : tracer->picture.mapped;
     unsigned tile_width = window.width < 1024 ? window.width : 1024;
     if (tile_width > tracer->tile_pixels)
         tile_width = tracer->tile_pixels;
@@ -427,9 +459,7 @@ enum status tracer_render(struct tracer *tracer, struct window window, struct im
             enum status status = dispatch_tile(tracer, tile, dispatch_ms);
             if (status != STATUS_DONE)
                 return status;
-            for (unsigned row = 0; row < tile.height; ++row)
-                memcpy(image->rgb + ((size_t)(y + row) * window.width + x) * CHANNELS,
-                       pixels + (size_t)row * tile.width * CHANNELS, tile.width * CHANNELS * sizeof(float));
+            copy_tile(tracer, window, tile, image);
             progress_advance(progress, (uint64_t)tile.width * tile.height);
         }
     }

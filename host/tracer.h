@@ -10,6 +10,7 @@
 struct tracer;
 
 struct tracer_options {
+    bool double_precision;              /* exact mode only, on a device with fp64 */
     bool fast;                          /* contraction and built-in functions allowed */
     int output;                         /* OUTPUT_ of scene_layout.h */
     unsigned group_width, group_height; /* invocations; 0: a choice that suits the device */
@@ -26,7 +27,8 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
                           const struct tracer_options *options, struct tracer **tracer);
 void tracer_destroy(struct tracer **tracer);
 
-/* Renders the window of the picture into image, which has the window's size. *dispatch_ms gets the time that
+/* Renders the window of the picture into image, which has the window's size (and, if it has room for it,
+ * the values in double precision). *dispatch_ms gets the time that
  * the device spent (device timestamps where it has them, otherwise from submission to completion). Advances
  * progress, whose unit is a pixel. STATUS_INTERRUPTED after Ctrl-C. */
 enum status tracer_render(struct tracer *tracer, struct window window, struct image *image,

@@ -218,6 +218,9 @@ static enum status open_device(struct vulkan_context *context, const char *choic
     context->driver.pNext = NULL;
     vkGetPhysicalDeviceMemoryProperties(context->physical_device, &context->memory);
     find_compute_queue(context->physical_device, &context->queue_family, &context->timestamp_bits);
+    VkPhysicalDeviceFeatures available;
+    vkGetPhysicalDeviceFeatures(context->physical_device, &available);
+    context->has_float64 = available.shaderFloat64;
     VULKAN_CALL(vkCreateDevice, context->physical_device,
                 &(VkDeviceCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
@@ -229,6 +232,7 @@ static enum status open_device(struct vulkan_context *context, const char *choic
                             .queueCount = 1,
                             .pQueuePriorities = &(float){1},
                         },
+                    .pEnabledFeatures = &(VkPhysicalDeviceFeatures){.shaderFloat64 = available.shaderFloat64},
                 },
                 NULL, &context->device);
     vkGetDeviceQueue(context->device, context->queue_family, 0, &context->queue);

@@ -17,6 +17,7 @@ struct vulkan_context {
     VkPhysicalDeviceMemoryProperties memory;
     VkDevice device;
     uint32_t queue_family;
+    bool has_float64;        /* enabled */
     uint32_t timestamp_bits; /* 0: the queue has no timestamps */
     VkQueue queue;
     struct arithmetic arithmetic; /* not known before probe_arithmetic() */

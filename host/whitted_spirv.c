@@ -2,6 +2,8 @@
 
 #include "whitted_corrected.h"
 #include "whitted_corrected_storage.h"
+#include "whitted_double.h"
+#include "whitted_double_storage.h"
 #include "whitted_exact.h"
 #include "whitted_exact_storage.h"
 #include "whitted_fast.h"
@@ -19,6 +21,7 @@ struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage)
     static const struct spirv variants[][2] = {
         [WHITTED_EXACT] = VARIANT(whitted_exact),
         [WHITTED_CORRECTED] = VARIANT(whitted_corrected),
+        [WHITTED_DOUBLE] = VARIANT(whitted_double),
         [WHITTED_FAST] = VARIANT(whitted_fast),
     };
 #undef VARIANT

@@ -13,6 +13,7 @@ struct spirv {
 enum whitted_variant {
     WHITTED_EXACT,
     WHITTED_CORRECTED, /* for a device whose / or sqrt is not exact */
+    WHITTED_DOUBLE,    /* exact, in double precision */
     WHITTED_FAST,
 };
 

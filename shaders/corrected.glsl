@@ -3,11 +3,11 @@
 //
 // The native operation on operands scaled to [1, 4) only estimates the 24-bit integer result q. The remainder of
 // q is then computed modulo 2^32, which is its true value as long as the estimate is off by less than 127 (root:
-// 60) units in the last place; it tells by how much to move q, and how to round. Neither operation has ties: twice
-// the remainder is never equal to the divisor, nor is 2 q + 1 ever the root of an integer multiple of four (Muller
-// et al., "Handbook of Floating-Point Arithmetic", 2nd edition, sections 4.8 and 5.3).
+// 62) from q; it tells by how much to move q, and how to round. Normal results have no ties: the middle between two
+// floats has an odd factor of 25 bits, so that neither its square nor its product with a float is a float.
+// Denormal quotients have ties, and round to even.
 //
-// A result below 2^-126 is 0 of the right sign; denormal operands count as what they are; a NaN is 0x7fc00000.
+// Denormal operands count as what they are, denormal quotients come out, and a NaN is 0x7fc00000.
 
 const uint SIGN_BIT = 0x80000000u;
 const uint INFINITY_BITS = 0x7f800000u;
@@ -55,6 +55,16 @@ bool special_quotient(uint a, uint b, out uint quotient)
     return a == 0u || b == 0u || a >= INFINITY_BITS || b >= INFINITY_BITS;
 }
 
+// quotient / 2^shift, rounded to even; inexact: there is more behind the quotient's last bit.
+uint rounded_denormal(uint quotient, int shift, bool inexact)
+{
+    uint lost = quotient & ((1u << shift) - 1u);
+    uint middle = 1u << (shift - 1);
+    uint kept = quotient >> shift;
+    bool up = lost > middle || (lost == middle && (inexact || (kept & 1u) != 0u));
+    return up ? kept + 1u : kept;
+}
+
 real corrected_quotient(real a, real b)
 {
     uint bits_a = floatBitsToUint(a);
@@ -89,13 +99,12 @@ real corrected_quotient(real a, real b)
         ++quotient;
         remainder -= int(divisor);
     }
-    if (2 * remainder > int(divisor))
-        ++quotient;
-
-    if (exponent <= 0)
-        return uintBitsToFloat(sign);
     if (exponent >= 255)
         return uintBitsToFloat(sign | INFINITY_BITS);
+    if (exponent <= 0)
+        return uintBitsToFloat(sign | rounded_denormal(quotient, min(1 - exponent, 25), remainder != 0));
+    if (2 * remainder > int(divisor))
+        ++quotient;
     return uintBitsToFloat(sign | ((uint(exponent - 1) << EXPONENT_SHIFT) + quotient)); // a carry is welcome
 }
 

@@ -1,6 +1,11 @@
 // For tests, with -DINEXACT_NATIVE: a device whose division and square root err as much as Vulkan allows, each
-// result moved by a number of units in the last place that depends on the operands: -2 to 2 for division, -8 to 8
-// for the root.
+// result moved by a number of units in the last place that depends on the operands, up to these to either side.
+#ifndef DIVISION_ULPS
+#define DIVISION_ULPS 2
+#endif
+#ifndef ROOT_ULPS
+#define ROOT_ULPS 8
+#endif
 
 uint noise(uint x)
 {
@@ -15,7 +20,7 @@ real moved(real x, int ulps)
 {
     uint bits = floatBitsToUint(x);
     uint magnitude = bits & 0x7fffffffu;
-    if (magnitude < 0x00800010u || magnitude >= 0x7f7ffff0u) // 0, about to be denormal or infinite, NaN
+    if (magnitude < 0x00800100u || magnitude >= 0x7f7fff00u) // 0, about to be denormal or infinite, NaN
         return x;
     return uintBitsToFloat(bits + uint(ulps));
 }
@@ -23,11 +28,13 @@ real moved(real x, int ulps)
 real native_quotient(real a, real b)
 {
     exact real quotient = a / b;
-    return moved(quotient, int(noise(floatBitsToUint(a) + noise(floatBitsToUint(b))) % 5u) - 2);
+    uint choice = noise(floatBitsToUint(a) + noise(floatBitsToUint(b))) % uint(2 * DIVISION_ULPS + 1);
+    return moved(quotient, int(choice) - DIVISION_ULPS);
 }
 
 real native_root(real a)
 {
     exact real root = sqrt(a);
-    return moved(root, int(noise(floatBitsToUint(a)) % 17u) - 8);
+    uint choice = noise(floatBitsToUint(a)) % uint(2 * ROOT_ULPS + 1);
+    return moved(root, int(choice) - ROOT_ULPS);
 }

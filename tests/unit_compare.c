@@ -31,8 +31,8 @@ static struct image picture(unsigned width, unsigned height)
 /* Compares two pictures of one pixel whose green values are a and b. */
 static struct comparison compare_values(float a, float b, const struct tolerance *tolerance)
 {
-    struct image image_a = {1, 1, (float[]){1.0f, a, 1.0f}};
-    struct image image_b = {1, 1, (float[]){1.0f, b, 1.0f}};
+    struct image image_a = {.width = 1, .height = 1, .rgb = (float[]){1.0f, a, 1.0f}};
+    struct image image_b = {.width = 1, .height = 1, .rgb = (float[]){1.0f, b, 1.0f}};
     struct comparison comparison;
     enum status status = image_compare(&image_a, &image_b, tolerance, &comparison);
     assert_int_equal(status, comparison.differing ? STATUS_DIFFERS : STATUS_DONE);
