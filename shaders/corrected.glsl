@@ -41,7 +41,8 @@ real scaled(uint mantissa, bool doubled)
 // The 24-bit integer near 2^23 x for x about 1 to 2.
 uint estimate_of(real x)
 {
-    return uint(x * real(8388608));
+    exact real integer = x * real(8388608);
+    return uint(integer);
 }
 
 // a / b where that is infinite, 0 or NaN because an operand is; all without signs.
