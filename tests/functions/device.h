@@ -1,0 +1,43 @@
+#ifndef DEVICE_H
+#define DEVICE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "function_table.h"
+#include "vulkan_buffer.h"
+
+enum { BATCH = 1 << 16 }; /* cases a dispatch */
+
+/* Runs functions.comp, of which the build has made one module a function. The host writes a batch's inputs
+ * and reads its outputs in place. */
+struct device {
+    struct vulkan_context *context;
+    bool corrected_division, corrected_root;
+    struct vulkan_buffer scene; /* functions.comp has the scene's bindings, and never reads them */
+    struct vulkan_buffer inputs, outputs;
+    VkDescriptorSetLayout set_layout;
+    VkPipelineLayout pipeline_layout;
+    VkDescriptorPool descriptor_pool;
+    VkDescriptorSet set;
+    VkPipeline pipeline;
+    VkCommandPool command_pool;
+    VkCommandBuffer commands;
+    VkQueryPool timestamps; /* VK_NULL_HANDLE: the device has none */
+    VkFence fence;
+};
+
+/* Prepares everything but the pipeline. Division and root are corrected where the device needs it, as the
+ * renderer does, or in any case; on failure the reason is reported and *device is destroyed. */
+enum status device_create(struct vulkan_context *context, bool corrected, struct device *device);
+void device_destroy(struct device *device);
+
+/* Builds the pipeline that calls the test's function, in place of the one before. */
+enum status device_load(struct device *device, const struct function_test *test, size_t input_words,
+                        size_t output_words);
+
+/* Runs the pipeline on `count` cases, at most BATCH; *ns is the time the device took, or that the host waited
+ * where the device has no timestamps. */
+enum status device_run(struct device *device, size_t count, double *ns);
+
+#endif

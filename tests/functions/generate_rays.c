@@ -1,0 +1,247 @@
+/* Rays at spheres and planes. */
+#include "generate.h"
+
+struct PackedSphere random_sphere(struct random *random)
+{
+    struct vec3 center = round_vector(random_point(random));
+    float radius =
+        round_number(random_bool(random) ? random_scale(random, 1e-4, 1e4) : random_scale(random, 0.02, 0.5));
+    return (struct PackedSphere){.center_radius = {center.x, center.y, center.z, radius}};
+}
+
+struct PackedPlane random_plane(struct random *random, const struct promises *promises)
+{
+    struct dvec3 direction = random_bool(random) ? random_axis(random) : random_direction(random);
+    double sign = random_sign(random);
+    if (promises->axis != 0)
+        direction = (struct dvec3){promises->axis == 1 ? sign : 0, promises->axis == 2 ? sign : 0,
+                                   promises->axis == 3 ? sign : 0};
+    struct vec3 normal = round_vector(direction);
+    float offset = random_below(random, 8) == 0 ? 0 : round_number(random_between(random, -1, 1));
+    struct PackedPlane plane = {.normal_offset = {normal.x, normal.y, normal.z, offset}};
+    if (!promises->opaque_planes && random_bool(random))
+        plane.surface.tags.x = KIND_TRANSPARENT;
+    plane.surface.tags.z = plane.surface.tags.x == KIND_TRANSPARENT || random_bool(random);
+    return plane;
+}
+
+struct dvec3 random_in_plane(struct random *random, const struct PackedPlane *plane)
+{
+    return random_tangent(random, dvec3_unit(widen(vector_of(plane->normal_offset))));
+}
+
+static void put_ray(struct word_writer *inputs, const struct ray *ray)
+{
+    put_vector(inputs, "ray origin", ray->origin);
+    put_vector(inputs, "ray direction", ray->direction);
+    put_integer(inputs, "ray surface", (uint32_t)ray->surface);
+    put_integer(inputs, "ray inward", ray->inward);
+}
+
+static void put_surface(struct word_writer *inputs, const PackedSurface *surface)
+{
+    put_integer(inputs, "kind", (uint32_t)surface->tags.x);
+    put_integer(inputs, "rank", (uint32_t)surface->tags.y);
+    put_integer(inputs, "tag z", (uint32_t)surface->tags.z);
+    put_integer(inputs, "tag w", (uint32_t)surface->tags.w);
+}
+
+void put_sphere(struct word_writer *inputs, const struct PackedSphere *sphere)
+{
+    put_vec4(inputs, "sphere center, radius", sphere->center_radius);
+    put_surface(inputs, &sphere->surface);
+}
+
+void put_plane(struct word_writer *inputs, const struct PackedPlane *plane)
+{
+    put_vec4(inputs, "plane normal, offset", plane->normal_offset);
+    put_surface(inputs, &plane->surface);
+}
+
+/* Rounds the sphere's numbers to a few binary digits. */
+static void snap(struct PackedSphere *sphere, struct dvec3 *center, double *radius)
+{
+    *center = (struct dvec3){rint(center->x * 64) / 64, rint(center->y * 64) / 64, rint(center->z * 64) / 64};
+    *radius = exp2(rint(fmax(log2(*radius), -6)));
+    struct vec3 rounded = round_vector(*center);
+    sphere->center_radius = (layout_vec4){rounded.x, rounded.y, rounded.z, (float)*radius};
+}
+
+/* A ray to, from, along, beside or within the sphere, which is surface 0. */
+static struct ray ray_at_sphere(struct random *random, struct PackedSphere *sphere)
+{
+    struct dvec3 center = widen(vector_of(sphere->center_radius)), normal = random_direction(random);
+    double radius = (double)sphere->center_radius.w;
+    struct dvec3 on_sphere = dvec3_along(center, radius, normal), tangent = random_tangent(random, normal);
+    struct dvec3 origin, direction = random_direction(random);
+    struct ray ray = {.surface = NO_SURFACE};
+    switch (random_below(random, 20)) {
+    case 0: /* leaves it */
+    case 1:
+        origin = on_sphere;
+        ray.surface = 0;
+        break;
+    case 2: /* leaves it and grazes */
+        origin = on_sphere;
+        direction =
+            dvec3_unit(dvec3_along(tangent, random_sign(random) * random_scale(random, 1e-9, 1e-2), normal));
+        ray.surface = 0;
+        break;
+    case 3: /* tangent but for rounding */
+    case 4:
+        origin = dvec3_along(on_sphere, -radius * random_scale(random, 1e-3, 1e3), tangent);
+        direction = tangent;
+        break;
+    case 5: /* exactly tangent: all numbers have few digits */
+        snap(sphere, &center, &radius);
+        direction = random_axis(random);
+        origin = dvec3_along(center, -4 * radius, direction);
+        origin = dvec3_along(origin, radius, (struct dvec3){direction.y, direction.z, direction.x});
+        break;
+    case 6: /* from inside */
+    case 7:
+        origin = dvec3_along(center, radius * random_between(random, 0, 1), normal);
+        sphere->surface.tags.z = 1;
+        break;
+    case 8: /* from the centre */
+        origin = center;
+        sphere->surface.tags.z = 1;
+        break;
+    case 9: /* from a point on it that belongs to another surface */
+        origin = on_sphere;
+        ray.surface = 7;
+        sphere->surface.tags.z = random_bool(random);
+        break;
+    case 10: /* along an axis, through the centre */
+        direction = random_axis(random);
+        origin = dvec3_along(center, -radius * random_between(random, 1, 10), direction);
+        break;
+    case 11: /* from far away */
+        origin = dvec3_along(center, radius * random_scale(random, 1e2, 1e6), random_direction(random));
+        direction = dvec3_unit(
+            dvec3_subtract(dvec3_along(center, radius * random_between(random, 0, 1.1), normal), origin));
+        break;
+    case 12: /* away from it */
+        origin = dvec3_along(center, radius * random_scale(random, 1, 10), normal);
+        direction = normal;
+        break;
+    default:
+        origin = random_point(random);
+        direction = dvec3_unit(
+            dvec3_subtract(dvec3_along(center, radius * random_between(random, 0, 1.2), normal), origin));
+    }
+    ray.inward = ray.surface == 0 && dvec3_dot(direction, normal) < 0;
+    ray.origin = round_vector(origin);
+    ray.direction = round_vector(direction);
+    return ray;
+}
+
+static struct ray ray_at_plane(struct random *random, const struct PackedPlane *plane, int surface)
+{
+    struct dvec3 normal = dvec3_unit(widen(vector_of(plane->normal_offset)));
+    struct dvec3 tangent = random_in_plane(random, plane);
+    struct dvec3 on_plane = dvec3_scale((double)plane->normal_offset.w, normal);
+    on_plane = dvec3_along(on_plane, random_between(random, -2, 2), random_in_plane(random, plane));
+    struct dvec3 origin = random_point(random), direction = random_direction(random);
+    struct ray ray = {.surface = NO_SURFACE};
+    switch (random_below(random, 16)) {
+    case 0: /* parallel but for rounding */
+        direction = tangent;
+        break;
+    case 1: /* grazes */
+        direction =
+            dvec3_unit(dvec3_along(tangent, random_sign(random) * random_scale(random, 1e-12, 1e-2), normal));
+        break;
+    case 2: /* about as parallel as the smallest slope that counts */
+        direction =
+            dvec3_along(tangent, random_sign(random) * PARALLEL * random_between(random, 0.5, 1.5), normal);
+        break;
+    case 3: /* from it */
+        origin = on_plane;
+        ray.surface = surface;
+        break;
+    case 4: /* from a point on it that belongs to another surface */
+        origin = on_plane;
+        break;
+    case 5: /* from close by, on either side */
+        origin = dvec3_along(on_plane, random_sign(random) * random_scale(random, 1e-9, 1e-3), normal);
+        break;
+    case 6: /* perpendicular */
+        direction = dvec3_scale(random_sign(random), normal);
+        break;
+    case 7: /* from far away */
+        origin = dvec3_along(on_plane, random_sign(random) * random_scale(random, 1e2, 1e6), direction);
+        break;
+    default:
+        break;
+    }
+    ray.origin = round_vector(origin);
+    ray.direction = round_vector(direction);
+    return ray;
+}
+
+/* Takes back what the specialised pipeline does not know. */
+static void keep_promises(const struct promises *promises, struct PackedSphere *sphere, struct ray *ray)
+{
+    if (promises->never_entered) {
+        sphere->surface.tags.z = sphere->surface.tags.w = 0;
+        ray->inward = false;
+    }
+}
+
+void generate_sphere_ray(struct random *random, const struct promises *promises, struct word_writer *inputs)
+{
+    struct PackedSphere sphere = random_sphere(random);
+    struct ray ray = ray_at_sphere(random, &sphere);
+    keep_promises(promises, &sphere, &ray);
+    put_ray(inputs, &ray);
+    put_sphere(inputs, &sphere);
+}
+
+void generate_plane_ray(struct random *random, const struct promises *promises, struct word_writer *inputs)
+{
+    struct PackedPlane plane = random_plane(random, promises);
+    struct ray ray = ray_at_plane(random, &plane, 1);
+    put_ray(inputs, &ray);
+    put_plane(inputs, &plane);
+}
+
+/* Two spheres and two planes, often the same twice, so that there are ties for the ranks to decide. */
+void generate_scene_ray(struct random *random, const struct promises *promises, struct word_writer *inputs)
+{
+    struct PackedSphere spheres[2] = {random_sphere(random), random_sphere(random)};
+    struct PackedPlane planes[2] = {random_plane(random, promises), random_plane(random, promises)};
+    struct ray ray =
+        random_bool(random) ? ray_at_sphere(random, &spheres[0]) : ray_at_plane(random, &planes[0], 2);
+    keep_promises(promises, &spheres[0], &ray);
+    if (random_bool(random))
+        spheres[1] = spheres[0];
+    if (random_bool(random))
+        planes[1] = planes[0];
+    if (random_below(random, 4) == 0 &&
+        ray.surface == NO_SURFACE) { /* a plane through the sphere's near pole */
+        layout_vec4 shape = spheres[0].center_radius;
+        layout_vec4 *plane = &planes[0].normal_offset;
+        ray.direction = (struct vec3){-plane->x, -plane->y, -plane->z};
+        ray.origin =
+            round_vector(dvec3_along(widen(vector_of(shape)), 3 * (double)shape.w, widen(vector_of(*plane))));
+        plane->w = dot(vector_of(*plane), vector_of(shape)) + shape.w;
+    }
+    int ranks[4] = {0, 1, 2, 3};
+    if (!promises->in_order)
+        for (unsigned i = 3; i > 0; --i) {
+            unsigned other = random_below(random, i + 1);
+            int rank = ranks[i];
+            ranks[i] = ranks[other];
+            ranks[other] = rank;
+        }
+    for (int i = 0; i < 2; ++i) {
+        spheres[i].surface.tags.y = ranks[i];
+        planes[i].surface.tags.y = ranks[2 + i];
+    }
+    put_ray(inputs, &ray);
+    put_sphere(inputs, &spheres[0]);
+    put_sphere(inputs, &spheres[1]);
+    put_plane(inputs, &planes[0]);
+    put_plane(inputs, &planes[1]);
+}
