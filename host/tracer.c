@@ -262,7 +262,7 @@ static unsigned choose_tile_pixels(const struct vulkan_context *context, const s
 {
     uint64_t work_per_pixel =
         (uint64_t)scene->samples * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
-    uint64_t pixels = (UINT64_C(1) << 26) / work_per_pixel;
+    uint64_t pixels = (UINT64_C(1) << 22) / work_per_pixel;
     uint64_t fitting = context->properties.limits.maxStorageBufferRange / (CHANNELS * sizeof(double));
     pixels = pixels < 1024 ? 1024 : pixels;
     pixels = pixels > 1 << 21 ? 1 << 21 : pixels;
