@@ -1,0 +1,88 @@
+. "$(dirname "$0")/lib.sh"
+
+# The shader of $BROKEN has the rough term of matte wrong by one part in 10000.
+
+agreement() {
+    expect 0 "$VKWHITTED" check $small "$figure" "$SOURCE_DIR/scenes/figure_2a.yaml"
+    [ "$(grep -cE '^/.*/scenes/figure_..?\.yaml: 0 of 2400 pixels differ, max error 0 @ \(0, 0, r\)$' out)" -eq 2 ] || fail output
+    [ ! -s err ] || fail 'standard error'
+}
+
+difference() {
+    expect 1 "$BROKEN" check $small "$figure"
+    said '^/.*/figure_4.yaml: [0-9]+ of 2400 pixels differ, max error [0-9.e-]+ @ \([0-9]+, [0-9]+, [rgb]\)  DIFFERS$' out
+    [ "$(wc -l <out)" -eq 1 ] || fail 'not one line'
+    count=$(sed -E 's/.*: ([0-9]+) of.*/\1/' out)
+    [ "$count" -gt 500 ] || fail "only $count pixels differ"
+}
+
+tolerance() {
+    expect 0 "$BROKEN" check --tolerance 0,1e-3 $small "$figure"
+    said ': 0 of 2400 pixels differ, max error [0-9.]+e?-?[0-9]* @' out
+    not_said 'max error 0 @' out
+    expect 1 "$BROKEN" check --tolerance 0,1e-6 $small "$figure"
+    expect 0 "$BROKEN" check --tolerance 1 $small "$figure"
+    expect 1 "$BROKEN" check --tolerance 0 $small "$figure"
+}
+
+allow() {
+    expect 1 "$BROKEN" check $small "$figure"
+    count=$(sed -E 's/.*: ([0-9]+) of.*/\1/' out)
+    expect 0 "$BROKEN" check --allow "$count" $small "$figure"
+    said ": $count of 2400 pixels differ" out
+    not_said DIFFERS out
+    expect 1 "$BROKEN" check --allow $((count - 1)) $small "$figure"
+}
+
+heatmap() {
+    expect 1 "$BROKEN" check --heatmap broken.png $small "$figure"
+    expect 0 "$VKWHITTED" check --heatmap same.png $small "$figure"
+    expect 0 "$VKWHITTED" check --heatmap also_same.png $small "$SOURCE_DIR/scenes/figure_2a.yaml"
+    cmp same.png also_same.png || fail 'two black pictures differ'
+    [ "$(wc -c <broken.png)" -gt $((2 * $(wc -c <same.png))) ] || fail 'the heatmap is as empty as a black one'
+    only_files broken.png same.png also_same.png
+}
+
+json_is() { local expected=$1; shift; [ "$(json "$@")" = "$expected" ] || fail "$* is $(json "$@"), expected $expected"; }
+
+json_fields() {
+    json_is "$figure" result.json scenes 0 scene
+    json_is "$1" result.json scenes 0 agrees
+    json_is 60 result.json scenes 0 width
+    json_is 40 result.json scenes 0 height
+    [ -n "$(json result.json device)" ] && [ -n "$(json result.json driver)" ] || fail 'no device'
+    for key in x y; do
+        value=$(json result.json scenes 0 at $key)
+        [ "$value" -ge 0 ] && [ "$value" -lt 60 ] || fail "$key $value"
+    done
+    json result.json scenes 0 at channel | grep -qx '[rgb]' || fail channel
+}
+
+json_file() {
+    expect 0 "$VKWHITTED" check --json result.json $small "$figure"
+    json_fields true
+    json_is 0 result.json scenes 0 differing_pixels
+    json_is 0 result.json scenes 0 bit_differing_pixels
+    json_is 0 result.json scenes 0 max_error
+    expect 1 "$BROKEN" check --json result.json $small "$figure"
+    json_fields false
+    json_is "$(sed -E 's/.*: ([0-9]+) of.*/\1/' out)" result.json scenes 0 differing_pixels
+    awk -v x="$(json result.json scenes 0 max_error)" 'BEGIN { exit !(x > 1e-6 && x < 1e-2) }' || fail max_error
+    expect 0 "$BROKEN" check --tolerance 1 --json result.json $small "$figure"
+    json_fields true
+    json_is 0 result.json scenes 0 differing_pixels
+    [ "$(json result.json scenes 0 bit_differing_pixels)" -gt 500 ] || fail bit_differing_pixels
+    only_files result.json
+}
+
+# A difference, then agreement: 1. A difference and a bad file: 2.
+worst_status() {
+    sed 's/, roughness: 0.6//' "$figure" >lambert.yaml # which has no rough term to be wrong
+    expect 1 "$BROKEN" check $small "$figure" lambert.yaml
+    expect 1 "$BROKEN" check $small lambert.yaml "$figure"
+    expect 0 "$BROKEN" check $small lambert.yaml
+    expect 2 "$BROKEN" check $small "$figure" no.yaml lambert.yaml
+    [ "$(wc -l <out)" -eq 2 ] || fail 'not two scenes checked'
+}
+
+if [ "$1" = json ]; then json_file; else "$1"; fi

@@ -1,0 +1,38 @@
+. "$(dirname "$0")/lib.sh"
+
+missing_scene() {
+    for command in render check; do
+        expect 2 "$VKWHITTED" $command no/such.yaml
+        said 'no/such.yaml: .*(No such file|cannot)'
+        [ "$(wc -l <err)" -eq 1 ] || fail 'not one line'
+    done
+}
+
+folder_as_scene() {
+    expect 2 "$VKWHITTED" render .
+    said 'error: '
+    expect 2 "$VKWHITTED" render /dev/null
+    said '/dev/null.*error: '
+}
+
+bad_scene() {
+    sed 's/radius: 1.5, material: Glass/radius: -1.5, material: Glass/' "$figure" >bad.yaml
+    expect 2 "$VKWHITTED" render bad.yaml -o a.png
+    said '^bad.yaml:[0-9]+:[0-9]+: error: .*radius'
+    line=$(sed -nE 's/^bad.yaml:([0-9]+):.*/\1/p' err | head -1)
+    column=$(sed -nE 's/^bad.yaml:[0-9]+:([0-9]+):.*/\1/p' err | head -1)
+    [ "$(sed -n "${line}p" bad.yaml | cut -c "$column"-"$((column + 3))")" = -1.5 ] || fail 'wrong place'
+    sed -n 2p err | grep -qF 'radius: -1.5' || fail 'the line itself is not shown'
+    sed -n 3p err | grep -qE '^ *\^' || fail 'no caret'
+    only_files bad.yaml
+}
+
+bad_scene_among_good_ones() {
+    echo 'camera: 5' >bad.yaml
+    expect 2 "$VKWHITTED" check $small "$figure" bad.yaml "$SOURCE_DIR/scenes/figure_2a.yaml" --json result.json
+    [ "$(grep -c ' 0 of 2400 pixels differ' out)" -eq 2 ] || fail 'the others are not checked'
+    said '^bad.yaml:'
+    [ "$(json result.json scenes)" = 2 ] || fail 'not two results in the JSON file'
+}
+
+"$1"

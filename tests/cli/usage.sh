@@ -1,0 +1,114 @@
+. "$(dirname "$0")/lib.sh"
+
+no_command() {
+    expect 2 "$VKWHITTED"
+    [ ! -s out ] || fail 'standard output'
+    said '^usage: vkwhitted render SCENE'
+}
+
+unknown_command() {
+    refused 2 'rendr: expected a command' rendr "$figure"
+    refused 2 ': expected a command' '' "$figure"
+    refused 2 '-q: expected a command' -q
+}
+
+unknown_option() {
+    expect 2 "$VKWHITTED" render --sizes 60x40 "$figure"
+    said "unrecognized option '--sizes'"
+    expect 2 "$VKWHITTED" render -x "$figure"
+    said "invalid option -- 'x'"
+    [ "$(wc -l <err)" -eq 1 ] || fail 'not one line'
+}
+
+missing_argument() {
+    expect 2 "$VKWHITTED" render "$figure" --size
+    said "option '--size' requires an argument"
+    expect 2 "$VKWHITTED" render "$figure" -o
+    said "option requires an argument -- 'o'"
+}
+
+size() {
+    for size in 12x 0x5 5x0 x12 12 12x34x56 -1x5 '12 x5' 1e2x5 65537x1 99999999999999999999x5 0x10x5 ''; do
+        refused 2 "--size $size: expected WIDTHxHEIGHT" render --size "$size" "$figure"
+    done
+    expect 0 "$VKWHITTED" render -q --size 1x1 "$figure"
+}
+
+numbers() {
+    for number in 12x -1 1.5 '' ' 5' '[+]5' 0x10 99999999999999999999; do
+        for option in --max-bounces --samples --light-samples --threads --repeat; do
+            refused 2 "$option $number: expected a whole number from" render "$option" "${number//[\[\]]/}" "$figure"
+        done
+        refused 2 "--allow $number: expected a number of pixels" check --allow "${number//[\[\]]/}" "$figure"
+    done
+    refused 2 '--max-bounces 1001: ' render --max-bounces 1001 "$figure"
+    refused 2 '--samples 0: ' render --samples 0 "$figure"
+    refused 2 '--light-samples 65537: ' check --light-samples 65537 "$figure"
+    for tolerance in -1 1x 1,-1 1,2,3 nan inf ''; do
+        refused 2 "--tolerance $tolerance: expected" check --tolerance "$tolerance" "$figure"
+    done
+}
+
+crop() {
+    for crop in 1,2,3 1,2,3,4,5 0,0,0,5 0,0,5,0 -1,0,5,5 1,2,3,4x ''; do
+        refused 2 "--crop $crop: expected X,Y,WIDTH,HEIGHT" render --crop "$crop" "$figure"
+    done
+}
+
+crop_outside() {
+    for crop in 0,0,601,1 0,0,1,401 600,0,1,1 0,400,1,1 599,399,2,1 65536,65536,65536,65536; do
+        refused 2 "--crop $crop: expected a part of the picture of 600x400" render --crop "$crop" "$figure"
+    done
+    refused 2 '--crop 0,0,61,1: expected a part of the picture of 60x40' check --size 60x40 --crop 0,0,61,1 "$figure"
+    expect 0 "$VKWHITTED" render -q --crop 599,399,1,1 "$figure"
+}
+
+option_of_another_command() {
+    refused 2 'check takes no option -o' check -o a.png "$figure"
+    refused 2 'check takes no option --transfer' check --transfer srgb "$figure"
+    refused 2 'check takes no option --stats' check --stats a.json "$figure"
+    refused 2 'render takes no option --tolerance' render --tolerance 1 "$figure"
+    refused 2 'render takes no option --heatmap' render --heatmap a.png "$figure"
+    refused 2 'devices takes no option --size' devices --size 60x40
+    only_files
+}
+
+choices() {
+    refused 2 '--backend gpu: expected vulkan or cpu' render --backend gpu "$figure"
+    refused 2 '--precision half: expected float or double or quad' render --precision half "$figure"
+    refused 2 '--transfer gamma: expected srgb or linear' render --transfer gamma "$figure"
+}
+
+impossible_together() {
+    refused 2 '--precision quad' render --precision quad "$figure"
+    refused 2 '--fast ' render --fast --backend cpu "$figure"
+    refused 2 '--device and --validate' render --device 0 --backend cpu "$figure"
+    refused 2 '--device and --validate' render --validate --backend cpu "$figure"
+    refused 2 '--heatmap takes one scene' check --heatmap a.png "$figure" "$figure"
+    refused 2 '--heatmap writes a .png' check --heatmap a.exr "$figure"
+    only_files
+}
+
+several_scenes() {
+    refused 2 'expected a scene file' render
+    refused 2 'expected a scene file' check
+    refused 2 'render takes one scene file' render "$figure" "$figure"
+    refused 2 'devices takes no scene' devices "$figure"
+}
+
+help_and_version() {
+    for arguments in --help -h 'render --help' 'check -h' 'devices --help'; do
+        expect 0 "$VKWHITTED" $arguments
+        said '^usage: vkwhitted render SCENE' out
+        [ ! -s err ] || fail 'standard error'
+    done
+    for option in $("$VKWHITTED" --help | grep -oE -- '--[a-z-]+' | sort -u); do
+        "$VKWHITTED" render "$option" 2>&1 </dev/null | grep -q unrecognized && fail "$option in the help is no option"
+    done
+    expect 0 "$VKWHITTED" --version
+    said '^vkwhitted [0-9]+\.[0-9]+\.[0-9]+$' out
+    "$VKWHITTED" --help >/dev/full 2>err
+    [ $? -eq 3 ] || fail 'a full standard output'
+}
+
+"$1"
