@@ -1,0 +1,12 @@
+# cmake -D vkwhitted=PROGRAM -D scene=FILE -D result=FILE -D largest_median=X -D largest_percentile_99_99=X -P this:
+# the relative errors of the scene's picture at 600x400 against binary128 must be at most these.
+execute_process(COMMAND ${vkwhitted} check -q --backend cpu --against quad --size 600x400 --json ${result} ${scene}
+                COMMAND_ERROR_IS_FATAL ANY)
+file(READ ${result} json)
+foreach(quantile median percentile_99_99)
+    string(JSON error GET "${json}" scenes 0 relative_error ${quantile})
+    message("relative error, ${quantile}: ${error}, at most ${largest_${quantile}}")
+    if(NOT error LESS_EQUAL ${largest_${quantile}})
+        message(SEND_ERROR "too large")
+    endif()
+endforeach()
