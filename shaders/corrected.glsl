@@ -1,11 +1,12 @@
 // Division and square root of floats, correctly rounded (to nearest, ties to even) on any device. Vulkan promises
 // division to 2.5 ulp and leaves sqrt to the worse of 1 / inversesqrt, but integers are exact everywhere.
 //
-// The native operation on operands scaled to [1, 4) only estimates the 24-bit integer result q. The remainder of
-// q is then computed modulo 2^32, which is its true value as long as the estimate is off by less than 127 (root:
-// 62) from q; it tells by how much to move q, and how to round. Normal results have no ties: the middle between two
-// floats has an odd factor of 25 bits, so that neither its square nor its product with a float is a float.
-// Denormal quotients have ties, and round to even.
+// The native operation on operands scaled to [1, 4) only estimates the 24-bit integer result q. From 16 below the
+// estimate, q is found by binary search on its remainder, which is computed modulo 2^32 and small enough to be
+// true. That bears 8 ulp, which count twice in q where the estimate reaches 2. No loops: lavapipe ends all loops of
+// an invocation after 65535 turns. Normal results have no ties: the middle between two floats has an odd factor of
+// 25 bits, so that neither its square nor its product with a float is a float. Denormal quotients do, and round to
+// even.
 //
 // Denormal operands count as what they are, denormal quotients come out, and a NaN is 0x7fc00000.
 
@@ -66,6 +67,23 @@ uint rounded_denormal(uint quotient, int shift, bool inexact)
     return up ? kept + 1u : kept;
 }
 
+// By `step`, if that is not too much.
+void raise_quotient(uint step, uint divisor, inout uint quotient, inout uint remainder)
+{
+    uint less = step * divisor;
+    bool fits = remainder >= less;
+    quotient += fits ? step : 0u;
+    remainder -= fits ? less : 0u;
+}
+
+void raise_root(uint step, inout uint root, inout uint remainder)
+{
+    uint less = step * (2u * root + step);
+    bool fits = remainder >= less;
+    root += fits ? step : 0u;
+    remainder -= fits ? less : 0u;
+}
+
 real corrected_quotient(real a, real b)
 {
     uint bits_a = floatBitsToUint(a);
@@ -90,21 +108,19 @@ real corrected_quotient(real a, real b)
         --exponent;
     }
 
-    uint quotient = estimate_of(native_quotient(scaled_a, scaled_b));
-    int remainder = int((dividend << EXPONENT_SHIFT) - quotient * divisor);
-    while (remainder < 0) {
-        --quotient;
-        remainder += int(divisor);
-    }
-    while (remainder >= int(divisor)) {
-        ++quotient;
-        remainder -= int(divisor);
-    }
+    uint quotient = estimate_of(native_quotient(scaled_a, scaled_b)) - 16u;
+    uint remainder = (dividend << EXPONENT_SHIFT) - quotient * divisor;
+    raise_quotient(16u, divisor, quotient, remainder);
+    raise_quotient(8u, divisor, quotient, remainder);
+    raise_quotient(4u, divisor, quotient, remainder);
+    raise_quotient(2u, divisor, quotient, remainder);
+    raise_quotient(1u, divisor, quotient, remainder);
+
     if (exponent >= 255)
         return uintBitsToFloat(sign | INFINITY_BITS);
     if (exponent <= 0)
-        return uintBitsToFloat(sign | rounded_denormal(quotient, min(1 - exponent, 25), remainder != 0));
-    if (2 * remainder > int(divisor))
+        return uintBitsToFloat(sign | rounded_denormal(quotient, min(1 - exponent, 25), remainder != 0u));
+    if (2u * remainder > divisor)
         ++quotient;
     return uintBitsToFloat(sign | ((uint(exponent - 1) << EXPONENT_SHIFT) + quotient)); // a carry is welcome
 }
@@ -124,17 +140,14 @@ real corrected_root(real a)
     bool doubled = (exponent & 1) == 0;
     uint square = mantissa << (doubled ? 24 : 23); // modulo 2^32
 
-    uint root = estimate_of(native_root(scaled(mantissa, doubled)));
-    int remainder = int(square - root * root);
-    while (remainder < 0) {
-        --root;
-        remainder += int(2u * root + 1u);
-    }
-    while (remainder > int(2u * root)) {
-        remainder -= int(2u * root + 1u);
-        ++root;
-    }
-    if (remainder > int(root)) // above (root + 1/2)^2 = root^2 + root + 1/4
+    uint root = estimate_of(native_root(scaled(mantissa, doubled))) - 16u;
+    uint remainder = square - root * root;
+    raise_root(16u, root, remainder);
+    raise_root(8u, root, remainder);
+    raise_root(4u, root, remainder);
+    raise_root(2u, root, remainder);
+    raise_root(1u, root, remainder);
+    if (remainder > root) // above (root + 1/2)^2 = root^2 + root + 1/4
         ++root;
 
     uint biased = uint((exponent + 127) >> 1);

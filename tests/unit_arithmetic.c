@@ -174,8 +174,7 @@ static void test_corrected_within_the_bounds_of_vulkan(void **state)
     assert_all_right(*state, within_bounds);
 }
 
-/* 60 and 30 ulp, which count twice above a power of two: about the tolerance that shaders/corrected.glsl
- * claims. */
+/* 8 ulp: the error that shaders/corrected.glsl claims to bear. */
 static void test_corrected_far_from_right(void **state)
 {
     assert_all_right(*state, far);
