@@ -15,8 +15,10 @@ enum { CHANNELS = 3 };
 struct tracer {
     struct vulkan_context *context;
     bool scene_in_storage, double_precision;
+    const struct packed_scene *packed;
+    struct tracer_options options;
     struct group_shape shape;
-    unsigned tile_pixels;
+    unsigned tile_pixels, samples_per_dispatch;
     struct vulkan_buffer scene, picture;
     struct vulkan_buffer staging; /* only where the host cannot read `picture` well */
     VkDescriptorBufferInfo bindings[BINDINGS];
@@ -34,7 +36,7 @@ struct tracer {
 
 /* As in whitted.comp. */
 struct push_constants {
-    uint32_t tile_x, tile_y, tile_width, tile_height, picture_width, picture_height;
+    uint32_t tile_x, tile_y, tile_width, tile_height, picture_width, picture_height, first_sample, end_sample;
 };
 
 static size_t pixel_size(const struct tracer *tracer)
@@ -269,6 +271,15 @@ static unsigned choose_tile_pixels(const struct vulkan_context *context, const s
     return (unsigned)(pixels < fitting ? pixels : fitting);
 }
 
+/* So many that an invocation's loops stay well below lavapipe's limit, as far as can be told beforehand. */
+static unsigned choose_samples_per_dispatch(const struct packed_scene *scene, unsigned rows)
+{
+    uint64_t turns_per_sample =
+        rows * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
+    uint64_t samples = (UINT64_C(1) << 15) / turns_per_sample;
+    return samples < 1 ? 1 : (unsigned)samples;
+}
+
 enum status tracer_create(struct vulkan_context *context, const struct packed_scene *scene,
                           const struct tracer_options *options, struct tracer **pointer)
 {
@@ -285,6 +296,9 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
     tracer->shape.width = options->group_width ? options->group_width : 8;
     tracer->shape.height = options->group_height ? options->group_height : on_processor ? 1 : 8;
     tracer->tile_pixels = options->tile_pixels ? options->tile_pixels : choose_tile_pixels(context, scene);
+    tracer->packed = scene;
+    tracer->options = *options;
+    tracer->samples_per_dispatch = choose_samples_per_dispatch(scene, tracer->shape.rows);
     tracer->picture_width = (unsigned)scene->width;
     tracer->picture_height = (unsigned)scene->height;
     enum status status = options->fast ? STATUS_DONE : probe_require_exact(context);
@@ -339,11 +353,13 @@ static void record_barrier(VkCommandBuffer commands, VkPipelineStageFlags from, 
                          0, NULL, 0, NULL);
 }
 
-static enum status record_tile(struct tracer *tracer, struct window tile)
+static enum status record_tile(struct tracer *tracer, struct window tile, uint32_t first_sample,
+                               uint32_t end_sample)
 {
     const VkCommandBuffer commands = tracer->commands;
     const struct push_constants constants = {
-        tile.x, tile.y, tile.width, tile.height, tracer->picture_width, tracer->picture_height};
+        tile.x,       tile.y,    tile.width, tile.height, tracer->picture_width, tracer->picture_height,
+        first_sample, end_sample};
     VULKAN_CALL(vkBeginCommandBuffer, commands,
                 &(VkCommandBufferBeginInfo){
                     .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
@@ -354,6 +370,9 @@ static enum status record_tile(struct tracer *tracer, struct window tile)
                             &tracer->set, 0, NULL);
     vkCmdPushConstants(commands, tracer->pipeline_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
                        &constants);
+    record_barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                   VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
     if (tracer->timestamps) {
         vkCmdResetQueryPool(commands, tracer->timestamps, 0, 2);
         vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, tracer->timestamps, 0);
@@ -383,11 +402,12 @@ error:
     return STATUS_UNABLE;
 }
 
-/* Leaves the tile in the buffer that the host reads; adds the device's time to *dispatch_ms. */
-static enum status dispatch_tile(struct tracer *tracer, struct window tile, double *dispatch_ms)
+/* Adds the samples to the tile in the buffer that the host reads, and the device's time to *dispatch_ms. */
+static enum status dispatch_tile(struct tracer *tracer, struct window tile, uint32_t first_sample,
+                                 uint32_t end_sample, double *dispatch_ms)
 {
     const VkDevice device = tracer->context->device;
-    enum status status = record_tile(tracer, tile);
+    enum status status = record_tile(tracer, tile, first_sample, end_sample);
     if (status != STATUS_DONE)
         return status;
     double start = clock_ms();
@@ -416,13 +436,58 @@ error:
     return STATUS_UNABLE;
 }
 
+static const void *tile_values(const struct tracer *tracer)
+{
+    return tracer->staging.buffer ? tracer->staging.mapped : tracer->picture.mapped;
+}
+
+/* Whether the driver ended a loop early: the shader marks such pixels with -1. */
+static bool was_cut(const struct tracer *tracer, struct window tile)
+{
+    const float *floats = tile_values(tracer);
+    const double *doubles = tile_values(tracer);
+    size_t count = (size_t)tile.width * tile.height * CHANNELS;
+    for (size_t i = 0; i < count; i += CHANNELS)
+        if (tracer->double_precision ? doubles[i] < 0 : floats[i] < 0)
+            return true;
+    return false;
+}
+
+/* Renders the tile's samples, a part of them at a time. Lavapipe ends loops after 65535 turns of all loops of
+ * an invocation together: where that shows, one pixel and one sample at a time have to do from then on. */
+static enum status render_tile(struct tracer *tracer, struct window tile, double *dispatch_ms)
+{
+    const uint32_t samples = (uint32_t)tracer->packed->samples;
+    for (uint32_t first = 0, end; first < samples; first = end) {
+        end = samples - first < tracer->samples_per_dispatch ? samples : first + tracer->samples_per_dispatch;
+        enum status status =
+            interrupt_requested() ? STATUS_INTERRUPTED : dispatch_tile(tracer, tile, first, end, dispatch_ms);
+        if (status != STATUS_DONE)
+            return status;
+    }
+    if (!was_cut(tracer, tile))
+        return STATUS_DONE;
+    if (tracer->shape.rows == 1 && tracer->samples_per_dispatch == 1) {
+        log_error("%s ended a loop of the shader early (lavapipe does so after 65535 turns in a pixel): "
+                  "fewer bounces or light samples are needed",
+                  tracer->context->properties.deviceName);
+        return STATUS_UNABLE;
+    }
+    log_info("the driver ended a loop early; going on with one pixel and sample at a time");
+    tracer->shape.rows = 1;
+    tracer->samples_per_dispatch = 1;
+    vkDestroyPipeline(tracer->context->device, tracer->pipeline, NULL);
+    tracer->pipeline = VK_NULL_HANDLE;
+    enum status status = create_pipeline(tracer, tracer->packed, &tracer->options);
+    return status == STATUS_DONE ? render_tile(tracer, tile, dispatch_ms) : status;
+}
+
 /* Copies the finished tile into its place in the image of the window. */
 static void copy_tile(const struct tracer *tracer, struct window window, struct window tile,
                       struct image *image)
 {
-    const void *pixels = tracer->staging.buffer ? tracer->staging.mapped : tracer->picture.mapped;
-    const float *floats = pixels;
-    const double *doubles = pixels;
+    const float *floats = tile_values(tracer);
+    const double *doubles = tile_values(tracer);
     size_t count = (size_t)tile.width * CHANNELS;
     for (unsigned row = 0; row < tile.height; ++row) {
         size_t from = row * count;
@@ -456,7 +521,7 @@ enum status tracer_render(struct tracer *tracer, struct window window, struct im
                 .width = window.width - x < tile_width ? window.width - x : tile_width,
                 .height = window.height - y < tile_height ? window.height - y : tile_height,
             };
-            enum status status = dispatch_tile(tracer, tile, dispatch_ms);
+            enum status status = render_tile(tracer, tile, dispatch_ms);
             if (status != STATUS_DONE)
                 return status;
             copy_tile(tracer, window, tile, image);

@@ -22,7 +22,8 @@ struct window {
     unsigned x, y, width, height;
 };
 
-/* Builds the pipeline and uploads the scene. On failure (reported) *tracer is NULL. */
+/* Builds the pipeline and uploads the scene, which must outlive the tracer. On failure (reported) *tracer is
+ * NULL. */
 enum status tracer_create(struct vulkan_context *context, const struct packed_scene *scene,
                           const struct tracer_options *options, struct tracer **tracer);
 void tracer_destroy(struct tracer **tracer);

@@ -13,11 +13,13 @@
 #include "dielectric.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
-layout(std430, set = 0, binding = 5) writeonly buffer Picture { real picture[]; }; // the tile, RGB
+layout(std430, set = 0, binding = 5) buffer Picture { real picture[]; }; // the tile, RGB; sums until the last sample
 layout(push_constant) uniform TileBlock {
     uvec2 origin, size, image_size; // pixels
+    uint first_sample, end_sample;  // of SAMPLES, in this dispatch
 } tile;
 uvec2 tile_origin, tile_size, image_size;
+uint first_sample, end_sample;
 
 // A ray, what it counts for in the pixel, and the bounces it has behind it.
 struct Path {
@@ -190,34 +192,61 @@ void trace(inout Pixel pixel, Path path)
         if (goes_on)
             ++pixel.tally.secondary_rays;
     }
+    pixel.tally.cut = pixel.tally.cut || goes_on;
 }
 
-real3 pixel_radiance(uvec2 position)
+// Takes up what the dispatches of the samples before have left.
+void resume(inout Pixel pixel, real3 left)
 {
-    Pixel pixel = Pixel(real3(0), 0u, 0u, 0u, Tally(0u, 0u, 0u));
+    pixel.tally.cut = left.x < real(0);
+    if (OUTPUT == OUTPUT_RADIANCE)
+        pixel.radiance = left;
+    pixel.tally.secondary_rays = uint(left.y);
+    pixel.tally.shadow_rays = uint(left.z);
+    if (OUTPUT == OUTPUT_SIGNATURE)
+        pixel.tally.signature = uint(left.x) | uint(left.y) << 16;
+}
+
+// The pixel's three values; the first is -1 where the driver ended a loop early.
+real3 render_pixel(uvec2 position, uint base)
+{
+    Pixel pixel = Pixel(real3(0), 0u, 0u, 0u, Tally(0u, 0u, 0u, false));
     if (SAMPLES > 1 || QUAD_LIGHTS > 0)
         pixel.seed = hash(hash(position.x) + position.y);
     if (SAMPLES == 1) {
         trace(pixel, primary_path(position, real(0.5), real(0.5)));
     } else {
         Sequence sequence = sequence_of(pixel.seed);
-        for (int k = 0; k < SAMPLES; ++k) {
-            pixel.sample_index = uint(k);
+        if (first_sample > 0u)
+            resume(pixel, real3(picture[base], picture[base + 1u], picture[base + 2u]));
+        uint k = first_sample;
+        for (; k < end_sample; ++k) {
+            pixel.sample_index = k;
             pixel.shaded = 0u;
             real x, y;
-            sequence_point(sequence, uint(k), x, y);
+            sequence_point(sequence, k, x, y);
             trace(pixel, primary_path(position, x, y));
         }
+        pixel.tally.cut = pixel.tally.cut || k < end_sample;
+    }
+    if (pixel.tally.cut)
+        return real3(-1);
+    if (OUTPUT == OUTPUT_RAYS)
+        return real3(real(SAMPLES), real(pixel.tally.secondary_rays), real(pixel.tally.shadow_rays));
+    if (OUTPUT == OUTPUT_SIGNATURE)
+        return real3(real(pixel.tally.signature & 0xffffu), real(pixel.tally.signature >> 16), real(0));
+    if (end_sample < uint(SAMPLES))
+        return pixel.radiance;
+    if (SAMPLES > 1) {
         exact real3 mean;
         for (int c = 0; c < 3; ++c)
             mean[c] = divide(pixel.radiance[c], real(SAMPLES));
         pixel.radiance = mean;
     }
-    if (OUTPUT == OUTPUT_RAYS)
-        return real3(real(SAMPLES), real(pixel.tally.secondary_rays), real(pixel.tally.shadow_rays));
-    if (OUTPUT == OUTPUT_SIGNATURE)
-        return real3(real(pixel.tally.signature & 0xffffu), real(pixel.tally.signature >> 16), real(0));
-    return pixel.radiance;
+    exact real3 value = pixel.radiance;
+    for (int c = 0; c < 3; ++c)
+        value[c] = value[c] > real(SMALLEST_WEIGHT) ? value[c] : real(0);
+    return value;
 }
 
 void main()
@@ -226,12 +255,18 @@ void main()
     tile_origin = tile.origin;
     tile_size = tile.size;
     image_size = tile.image_size;
-    for (uint row = 0u; row < ROWS; ++row) {
+    first_sample = tile.first_sample;
+    end_sample = tile.end_sample;
+    uint row = 0u;
+    for (; row < ROWS; ++row) {
         uvec2 in_tile = uvec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * ROWS + row);
-        real3 radiance = pixel_radiance(tile_origin + in_tile);
-        uint base = (in_tile.y * tile_size.x + in_tile.x) * 3u;
-        if (all(lessThan(in_tile, tile_size)))
+        bool inside = all(lessThan(in_tile, tile_size));
+        uint base = inside ? (in_tile.y * tile_size.x + in_tile.x) * 3u : 0u;
+        real3 value = render_pixel(tile_origin + in_tile, base);
+        if (inside)
             for (uint c = 0u; c < 3u; ++c)
-                picture[base + c] = radiance[c] > real(SMALLEST_WEIGHT) ? radiance[c] : real(0);
+                picture[base + c] = value[c];
     }
+    if (row < ROWS) // cut in this very loop
+        picture[0] = real(-1);
 }
