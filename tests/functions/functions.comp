@@ -142,7 +142,9 @@ void call_sphere_shadows()
 {
     Segment segment = read_segment();
     hoisted_spheres[0] = read_sphere();
-    write_integer(uint(sphere_shadows(0, segment.from, segment.surface, segment.inward, segment.direction, segment.distance, segment.to)));
+    bool shadows = sphere_shadows(0, segment.from, segment.surface, segment.inward, segment.direction,
+                                  segment.distance, segment.to);
+    write_integer(uint(shadows));
 }
 
 void call_plane_shadows()

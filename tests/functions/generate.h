@@ -18,8 +18,9 @@ generate_case generate_point_light, generate_quad_light;
 struct PackedSphere random_sphere(struct random *random);
 struct PackedPlane random_plane(struct random *random, const struct promises *promises);
 
-/* Perpendicular to the plane's normal, at random. */
-struct dvec3 random_in_plane(struct random *random, const struct PackedPlane *plane);
+/* From start so far in a random direction along the plane. */
+struct dvec3 random_in_plane(struct random *random, const struct PackedPlane *plane, struct dvec3 start,
+                             double distance);
 
 void put_sphere(struct word_writer *inputs, const struct PackedSphere *sphere);
 void put_plane(struct word_writer *inputs, const struct PackedPlane *plane);

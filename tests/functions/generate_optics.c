@@ -100,7 +100,7 @@ static struct matte_case put_matte(struct random *random, const struct promises 
     } else if (surface == 1) {
         normal = widen(vector_of(plane->normal_offset));
         point = dvec3_scale((double)plane->normal_offset.w, dvec3_unit(normal));
-        point = dvec3_along(point, random_between(random, -1, 1), random_in_plane(random, plane));
+        point = random_in_plane(random, plane, point, random_between(random, -1, 1));
     }
     double cos_out =
         random_below(random, 4) == 0 ? random_scale(random, 1e-9, 1e-2) : random_between(random, 0, 1);
@@ -145,8 +145,7 @@ void generate_point_light(struct random *random, const struct promises *promises
     struct dvec3 point = widen(matte.point), light = random_point(random);
     switch (random_below(random, 12)) {
     case 0: /* on the surface's tangent plane but for rounding */
-        light = dvec3_along(point, random_scale(random, 1e-3, 10),
-                            random_tangent(random, dvec3_unit(matte.normal)));
+        light = random_aside(random, dvec3_unit(matte.normal), point, random_scale(random, 1e-3, 10));
         break;
     case 1: /* at the point */
         light = point;
@@ -156,12 +155,11 @@ void generate_point_light(struct random *random, const struct promises *promises
         break;
     case 3: /* on the plane */
         light = dvec3_scale((double)plane.normal_offset.w, widen(vector_of(plane.normal_offset)));
-        light = dvec3_along(light, random_between(random, -2, 2), random_in_plane(random, &plane));
+        light = random_in_plane(random, &plane, light, random_between(random, -2, 2));
         break;
     case 4: /* in or on the sphere */
-        light = dvec3_along(widen(vector_of(sphere.center_radius)),
-                            (double)sphere.center_radius.w * fmin(1, random_between(random, 0, 2)),
-                            random_direction(random));
+        light = random_away(random, widen(vector_of(sphere.center_radius)),
+                            (double)sphere.center_radius.w * fmin(1, random_between(random, 0, 2)));
         break;
     case 5: /* straight above */
         light = dvec3_along(point, random_scale(random, 1e-3, 10), matte.normal);
@@ -181,8 +179,8 @@ void generate_quad_light(struct random *random, const struct promises *promises,
     tag(random, promises, &sphere);
     struct matte_case matte = put_matte(random, promises, &sphere, &plane, inputs);
     struct dvec3 corner = random_point(random);
-    struct dvec3 u = dvec3_scale(random_scale(random, 1e-3, 2), random_direction(random));
-    struct dvec3 v = dvec3_scale(random_scale(random, 1e-3, 2), random_direction(random));
+    struct dvec3 u = random_away(random, (struct dvec3){0}, random_scale(random, 1e-3, 2));
+    struct dvec3 v = random_away(random, (struct dvec3){0}, random_scale(random, 1e-3, 2));
     if (random_below(random, 4) == 0) /* the point lies in the light's plane */
         corner = dvec3_along(widen(matte.point), random_between(random, -1, 1), u);
     else if (random_below(random, 4) != 0) /* shines on the point */

@@ -25,9 +25,10 @@ struct PackedPlane random_plane(struct random *random, const struct promises *pr
     return plane;
 }
 
-struct dvec3 random_in_plane(struct random *random, const struct PackedPlane *plane)
+struct dvec3 random_in_plane(struct random *random, const struct PackedPlane *plane, struct dvec3 start,
+                             double distance)
 {
-    return random_tangent(random, dvec3_unit(widen(vector_of(plane->normal_offset))));
+    return random_aside(random, dvec3_unit(widen(vector_of(plane->normal_offset))), start, distance);
 }
 
 static void put_ray(struct word_writer *inputs, const struct ray *ray)
@@ -83,8 +84,7 @@ static struct ray ray_at_sphere(struct random *random, struct PackedSphere *sphe
         break;
     case 2: /* leaves it and grazes */
         origin = on_sphere;
-        direction =
-            dvec3_unit(dvec3_along(tangent, random_sign(random) * random_scale(random, 1e-9, 1e-2), normal));
+        direction = dvec3_unit(dvec3_along(tangent, random_signed(random, 1e-9, 1e-2), normal));
         ray.surface = 0;
         break;
     case 3: /* tangent but for rounding */
@@ -117,7 +117,7 @@ static struct ray ray_at_sphere(struct random *random, struct PackedSphere *sphe
         origin = dvec3_along(center, -radius * random_between(random, 1, 10), direction);
         break;
     case 11: /* from far away */
-        origin = dvec3_along(center, radius * random_scale(random, 1e2, 1e6), random_direction(random));
+        origin = random_away(random, center, radius * random_scale(random, 1e2, 1e6));
         direction = dvec3_unit(
             dvec3_subtract(dvec3_along(center, radius * random_between(random, 0, 1.1), normal), origin));
         break;
@@ -139,9 +139,9 @@ static struct ray ray_at_sphere(struct random *random, struct PackedSphere *sphe
 static struct ray ray_at_plane(struct random *random, const struct PackedPlane *plane, int surface)
 {
     struct dvec3 normal = dvec3_unit(widen(vector_of(plane->normal_offset)));
-    struct dvec3 tangent = random_in_plane(random, plane);
+    struct dvec3 tangent = random_tangent(random, normal);
     struct dvec3 on_plane = dvec3_scale((double)plane->normal_offset.w, normal);
-    on_plane = dvec3_along(on_plane, random_between(random, -2, 2), random_in_plane(random, plane));
+    on_plane = random_in_plane(random, plane, on_plane, random_between(random, -2, 2));
     struct dvec3 origin = random_point(random), direction = random_direction(random);
     struct ray ray = {.surface = NO_SURFACE};
     switch (random_below(random, 16)) {
@@ -149,12 +149,10 @@ static struct ray ray_at_plane(struct random *random, const struct PackedPlane *
         direction = tangent;
         break;
     case 1: /* grazes */
-        direction =
-            dvec3_unit(dvec3_along(tangent, random_sign(random) * random_scale(random, 1e-12, 1e-2), normal));
+        direction = dvec3_unit(dvec3_along(tangent, random_signed(random, 1e-12, 1e-2), normal));
         break;
     case 2: /* about as parallel as the smallest slope that counts */
-        direction =
-            dvec3_along(tangent, random_sign(random) * PARALLEL * random_between(random, 0.5, 1.5), normal);
+        direction = dvec3_along(tangent, PARALLEL * random_signed(random, 0.5, 1.5), normal);
         break;
     case 3: /* from it */
         origin = on_plane;
@@ -164,13 +162,13 @@ static struct ray ray_at_plane(struct random *random, const struct PackedPlane *
         origin = on_plane;
         break;
     case 5: /* from close by, on either side */
-        origin = dvec3_along(on_plane, random_sign(random) * random_scale(random, 1e-9, 1e-3), normal);
+        origin = dvec3_along(on_plane, random_signed(random, 1e-9, 1e-3), normal);
         break;
     case 6: /* perpendicular */
         direction = dvec3_scale(random_sign(random), normal);
         break;
     case 7: /* from far away */
-        origin = dvec3_along(on_plane, random_sign(random) * random_scale(random, 1e2, 1e6), direction);
+        origin = dvec3_along(on_plane, random_signed(random, 1e2, 1e6), direction);
         break;
     default:
         break;
@@ -209,8 +207,12 @@ void generate_plane_ray(struct random *random, const struct promises *promises, 
 /* Two spheres and two planes, often the same twice, so that there are ties for the ranks to decide. */
 void generate_scene_ray(struct random *random, const struct promises *promises, struct word_writer *inputs)
 {
-    struct PackedSphere spheres[2] = {random_sphere(random), random_sphere(random)};
-    struct PackedPlane planes[2] = {random_plane(random, promises), random_plane(random, promises)};
+    struct PackedSphere spheres[2];
+    struct PackedPlane planes[2];
+    for (int i = 0; i < 2; ++i) {
+        spheres[i] = random_sphere(random);
+        planes[i] = random_plane(random, promises);
+    }
     struct ray ray =
         random_bool(random) ? ray_at_sphere(random, &spheres[0]) : ray_at_plane(random, &planes[0], 2);
     keep_promises(promises, &spheres[0], &ray);

@@ -31,8 +31,7 @@ void generate_sphere_segment(struct random *random, const struct promises *promi
     struct dvec3 center = widen(vector_of(sphere.center_radius)), normal = random_direction(random);
     double radius = (double)sphere.center_radius.w;
     struct dvec3 on_sphere = dvec3_along(center, radius, normal), tangent = random_tangent(random, normal);
-    struct dvec3 inside =
-        dvec3_along(center, radius * random_between(random, 0, 1), random_direction(random));
+    struct dvec3 inside = random_away(random, center, radius * random_between(random, 0, 1));
     struct dvec3 from = random_point(random), to = random_point(random);
     struct segment segment = {.surface = NO_SURFACE};
     switch (random_below(random, 20)) {
@@ -60,7 +59,7 @@ void generate_sphere_segment(struct random *random, const struct promises *promi
         to = dvec3_along(on_sphere, radius * random_scale(random, 1e-3, 1e2), tangent);
         break;
     case 5: /* light on it */
-        from = dvec3_along(on_sphere, random_scale(random, 1e-3, 1), random_direction(random));
+        from = random_away(random, on_sphere, random_scale(random, 1e-3, 1));
         to = on_sphere;
         sphere.surface.tags.w = random_bool(random);
         break;
@@ -112,9 +111,9 @@ void generate_plane_segment(struct random *random, const struct promises *promis
     struct PackedPlane plane = random_plane(random, promises);
     struct dvec3 normal = dvec3_unit(widen(vector_of(plane.normal_offset)));
     struct dvec3 on_plane = dvec3_scale((double)plane.normal_offset.w, normal);
-    on_plane = dvec3_along(on_plane, random_between(random, -2, 2), random_in_plane(random, &plane));
+    on_plane = random_in_plane(random, &plane, on_plane, random_between(random, -2, 2));
     struct dvec3 from = random_point(random), to = random_point(random);
-    double height = random_sign(random) * random_scale(random, 1e-9, 1e-3);
+    double height = random_signed(random, 1e-9, 1e-3);
     struct segment segment = {.surface = NO_SURFACE};
     switch (random_below(random, 10)) {
     case 0: /* light on it but for rounding */
@@ -132,7 +131,7 @@ void generate_plane_segment(struct random *random, const struct promises *promis
         break;
     case 4: /* ends on the same side */
         from = dvec3_along(on_plane, height, normal);
-        to = dvec3_along(from, 0.5, random_in_plane(random, &plane));
+        to = random_in_plane(random, &plane, from, 0.5);
         break;
     default:
         break;

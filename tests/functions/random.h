@@ -10,7 +10,8 @@
 #include "vector.h"
 
 /* Random numbers of one case: SplitMix64 (Steele, Lea and Flood, OOPSLA 2014), started anew for every case,
- * so that a case can be had alone. */
+ * so that a case can be had alone. No two of these calls stand in one argument list or initialiser, whose
+ * order of evaluation C leaves open: every compiler makes the same cases. */
 struct random {
     uint64_t state;
 };
@@ -58,6 +59,13 @@ static inline double random_sign(struct random *random)
     return random_bool(random) ? 1 : -1;
 }
 
+/* Log-uniform, of either sign. */
+static inline double random_signed(struct random *random, double low, double high)
+{
+    double sign = random_sign(random);
+    return sign * random_scale(random, low, high);
+}
+
 /* In the cube that scenes fill, in scene units. */
 static inline struct dvec3 random_point(struct random *random)
 {
@@ -100,6 +108,19 @@ static inline struct dvec3 random_tangent(struct random *random, struct dvec3 no
 static inline struct dvec3 dvec3_along(struct dvec3 start, double distance, struct dvec3 direction)
 {
     return dvec3_add(start, dvec3_scale(distance, direction));
+}
+
+/* From start so far in a random direction. */
+static inline struct dvec3 random_away(struct random *random, struct dvec3 start, double distance)
+{
+    return dvec3_along(start, distance, random_direction(random));
+}
+
+/* From start so far in a random direction perpendicular to the unit vector `normal`. */
+static inline struct dvec3 random_aside(struct random *random, struct dvec3 normal, struct dvec3 start,
+                                        double distance)
+{
+    return dvec3_along(start, distance, random_tangent(random, normal));
 }
 
 /* To float, without denormals, as the packer does it. */
