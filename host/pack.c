@@ -9,8 +9,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The packed scene's extent is 1; what float arithmetic on it cannot resolve, a few units in the last
- * place, is taken as touching, not as overlapping. */
+/* What float arithmetic on coordinates of size 1 cannot resolve, a few units in the last place, is taken as
+ * touching, not as overlapping. */
 static const double resolution = 0x1p-21;
 
 /* Keeps the largest possible radiance, at NEAREST_LIGHT_SQUARED, far inside float. */
@@ -164,6 +164,12 @@ static double plane_height(const struct PackedPlane *plane, struct dvec3 point)
     return dvec3_dot(from_vec4(plane->normal_offset), point) - (double)plane->normal_offset.w;
 }
 
+static bool lies_behind(const struct PackedPlane *plane, struct dvec3 point)
+{
+    double size = dvec3_length(point) + fabs((double)plane->normal_offset.w);
+    return plane_height(plane, point) < -resolution * size;
+}
+
 static enum status pack_point_light(struct packing *packing, const struct scene_light *light)
 {
     struct packed_scene *packed = packing->packed;
@@ -177,8 +183,7 @@ static enum status pack_point_light(struct packing *packing, const struct scene_
     }
     struct dvec3 position = dvec3_scale(packing->scale, dvec3_of(light->point.position));
     for (int i = 0; i < packed->plane_count; ++i)
-        if (packed->planes[i].surface.tags.x != KIND_TRANSPARENT &&
-            plane_height(&packed->planes[i], position) < -resolution)
+        if (packed->planes[i].surface.tags.x != KIND_TRANSPARENT && lies_behind(&packed->planes[i], position))
             return STATUS_DONE; /* behind an opaque plane: it lights nothing that can be seen */
     packed->point_lights[packed->point_light_count++] = (struct PackedPointLight){
         .position = to_vec4(position, 0),
@@ -203,7 +208,7 @@ static enum status pack_quad_light(struct packing *packing, const struct scene_l
     for (int i = 0; i < packed->plane_count; ++i)
         for (int k = 0; k < 4; ++k) {
             struct dvec3 point = dvec3_add(corner, dvec3_add(dvec3_scale(k & 1, u), dvec3_scale(k >> 1, v)));
-            if (plane_height(&packed->planes[i], point) < -resolution)
+            if (lies_behind(&packed->planes[i], point))
                 packed->planes[i].surface.tags.z = 1;
         }
     packed->quad_lights[packed->quad_light_count++] = (struct PackedQuadLight){
@@ -216,10 +221,11 @@ static enum status pack_quad_light(struct packing *packing, const struct scene_l
     return STATUS_DONE;
 }
 
-/* Whether a surface whose least distance to the sphere's centre this is reaches into the sphere. */
-static bool reaches_into(double distance, double radius)
+/* Whether a surface at this distance from the sphere's centre reaches into the sphere. */
+static bool reaches_into(double distance, layout_vec4 sphere)
 {
-    return distance < radius - resolution * fmin(radius, 1);
+    double radius = (double)sphere.w;
+    return distance < radius - resolution * (dvec3_length(from_vec4(sphere)) + radius);
 }
 
 /* Whether a ray or a shading point can lie within the sphere other than on it: the camera is in it, or it is
@@ -234,12 +240,12 @@ static bool holds_rays(const struct packed_scene *packed, int sphere)
     if (holder->surface.tags.x != KIND_TRANSPARENT)
         return false;
     for (int i = 0; i < packed->plane_count; ++i)
-        if (reaches_into(fabs(plane_height(&packed->planes[i], center)), radius))
+        if (reaches_into(fabs(plane_height(&packed->planes[i], center)), holder->center_radius))
             return true;
     for (int i = 0; i < packed->sphere_count; ++i) {
         layout_vec4 other = packed->spheres[i].center_radius;
         double apart = dvec3_length(dvec3_subtract(from_vec4(other), center));
-        if (i != sphere && reaches_into(fabs(apart - (double)other.w), radius))
+        if (i != sphere && reaches_into(fabs(apart - (double)other.w), holder->center_radius))
             return true;
     }
     return false;
@@ -283,13 +289,12 @@ static void warn_of_overlaps(const struct packing *packing)
         for (int k = 0; k < i; ++k) {
             layout_vec4 b = packed->spheres[k].center_radius;
             if (packed->spheres[k].surface.tags.x == KIND_TRANSPARENT &&
-                reaches_into(dvec3_length(dvec3_subtract(from_vec4(a), from_vec4(b))) - (double)b.w,
-                             (double)a.w))
+                reaches_into(dvec3_length(dvec3_subtract(from_vec4(a), from_vec4(b))) - (double)b.w, a))
                 warn_overlap(packing, packing->sphere_sources[k], packing->sphere_sources[i]);
         }
         for (int k = 0; k < packed->plane_count; ++k)
             if (packed->planes[k].surface.tags.x == KIND_TRANSPARENT &&
-                reaches_into(plane_height(&packed->planes[k], from_vec4(a)), (double)a.w))
+                reaches_into(plane_height(&packed->planes[k], from_vec4(a)), a))
                 warn_overlap(packing, packing->plane_sources[k], packing->sphere_sources[i]);
     }
     for (int i = 0; i < packed->plane_count; ++i)
