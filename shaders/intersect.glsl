@@ -151,10 +151,8 @@ Hit nearest_hit(Ray ray)
     nearest.rank = 0;
     nearest.foot = real3(0);
     nearest.half_chord = real(0);
-    [[unroll]] for (int i = 0; i < SPHERES; ++i)
-        meet_sphere(ray, i, nearest);
-    [[unroll]] for (int i = 0; i < PLANES; ++i)
-        meet_plane(ray, i, nearest);
+    FOR_EACH(i, SPHERES, meet_sphere(ray, i, nearest);)
+    FOR_EACH(i, PLANES, meet_plane(ray, i, nearest);)
     return nearest;
 }
 
@@ -222,10 +220,8 @@ bool plane_shadows(int i, real3 point, int surface, real3 light)
 bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real distance, real3 light)
 {
     bool shadowed = false;
-    [[unroll]] for (int i = 0; i < SPHERES; ++i)
-        shadowed = sphere_shadows(i, point, surface, inward, to_light, distance, light) || shadowed;
+    FOR_EACH(i, SPHERES, shadowed = sphere_shadows(i, point, surface, inward, to_light, distance, light) || shadowed;)
     if (PLANES_SHADOW)
-        [[unroll]] for (int i = 0; i < PLANES; ++i)
-            shadowed = plane_shadows(i, point, surface, light) || shadowed;
+        FOR_EACH(i, PLANES, shadowed = plane_shadows(i, point, surface, light) || shadowed;)
     return shadowed;
 }

@@ -44,6 +44,23 @@ SCENE_ARRAY(4, PackedQuadLight, quad_lights, QUAD_LIGHTS);
 // Mesa's lavapipe loads a uniform once for all lanes only outside of control flow, and lane by lane inside. So
 // small scenes are copied to variables first thing; their loops are unrolled, which makes registers of them.
 const bool HOISTED = SPHERES + PLANES + POINT_LIGHTS + QUAD_LIGHTS <= 24;
+
+// Loops over objects and lights: unrolled where the scene is small, and never where it is not, which would take
+// compilers minutes.
+#define FOR_EACH(i, count, statement)                      \
+    if (HOISTED) {                                         \
+        [[unroll]] for (int i = 0; i < count; ++i)         \
+            statement                                      \
+    } else {                                               \
+        int i = 0;                                         \
+        [[dont_unroll]] for (; i < count; ++i)             \
+            statement                                      \
+        loop_cut = loop_cut || i < count;                  \
+    }
+
+// The driver ended a loop early: lavapipe allows 65535 turns of all loops of an invocation together.
+bool loop_cut = false;
+
 PackedSphere hoisted_spheres[HOISTED ? SPHERES + 1 : 1];
 PackedPlane hoisted_planes[HOISTED ? PLANES + 1 : 1];
 PackedPointLight hoisted_point_lights[HOISTED ? POINT_LIGHTS + 1 : 1];

@@ -66,7 +66,7 @@ real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout Tall
         if (lit)
             sum = sum + irradiance * projected_area;
     }
-    tally.cut = tally.cut || k < LIGHT_SAMPLES;
+    loop_cut = loop_cut || k < LIGHT_SAMPLES;
     exact real3 total = radiance * sum;
     return total;
 }
@@ -75,15 +75,15 @@ real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout Tall
 real3 direct_light(Matte matte, uint sample_index, uint seed, inout Tally tally)
 {
     exact real3 sum = real3(0);
-    if (POINT_LIGHTS > 0)
-        [[unroll]] for (int i = 0; i < POINT_LIGHTS; ++i) {
+    if (POINT_LIGHTS > 0) // lavapipe runs the body of an empty loop once, masked
+        FOR_EACH(i, POINT_LIGHTS, {
             real3 to_light;
             real irradiance = point_irradiance(matte, real3(get_point_light(i).position.xyz), to_light, tally);
             note(tally, irradiance > real(0) ? 1u : 0u);
             sum = sum + irradiance * real3(get_point_light(i).intensity.xyz);
-        }
-    if (QUAD_LIGHTS > 0) // lavapipe runs the body of an empty loop once, masked
-        [[unroll]] for (int i = 0; i < QUAD_LIGHTS; ++i)
-            sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), tally);
+        })
+    if (QUAD_LIGHTS > 0)
+        FOR_EACH(i, QUAD_LIGHTS,
+                 sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), tally);)
     return sum;
 }

@@ -3,7 +3,6 @@
 struct Tally {
     uint secondary_rays, shadow_rays;
     uint signature;
-    bool cut; // the driver ended a loop early: lavapipe allows 65535 turns in all
 };
 
 // Adds a decision to the path's signature.

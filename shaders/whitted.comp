@@ -192,13 +192,13 @@ void trace(inout Pixel pixel, Path path)
         if (goes_on)
             ++pixel.tally.secondary_rays;
     }
-    pixel.tally.cut = pixel.tally.cut || goes_on;
+    loop_cut = loop_cut || goes_on;
 }
 
 // Takes up what the dispatches of the samples before have left.
 void resume(inout Pixel pixel, real3 left)
 {
-    pixel.tally.cut = left.x < real(0);
+    loop_cut = left.x < real(0);
     if (OUTPUT == OUTPUT_RADIANCE)
         pixel.radiance = left;
     pixel.tally.secondary_rays = uint(left.y);
@@ -210,7 +210,8 @@ void resume(inout Pixel pixel, real3 left)
 // The pixel's three values; the first is -1 where the driver ended a loop early.
 real3 render_pixel(uvec2 position, uint base)
 {
-    Pixel pixel = Pixel(real3(0), 0u, 0u, 0u, Tally(0u, 0u, 0u, false));
+    loop_cut = false;
+    Pixel pixel = Pixel(real3(0), 0u, 0u, 0u, Tally(0u, 0u, 0u));
     if (SAMPLES > 1 || QUAD_LIGHTS > 0)
         pixel.seed = hash(hash(position.x) + position.y);
     if (SAMPLES == 1) {
@@ -227,9 +228,9 @@ real3 render_pixel(uvec2 position, uint base)
             sequence_point(sequence, k, x, y);
             trace(pixel, primary_path(position, x, y));
         }
-        pixel.tally.cut = pixel.tally.cut || k < end_sample;
+        loop_cut = loop_cut || k < end_sample;
     }
-    if (pixel.tally.cut)
+    if (loop_cut)
         return real3(-1);
     if (OUTPUT == OUTPUT_RAYS)
         return real3(real(SAMPLES), real(pixel.tally.secondary_rays), real(pixel.tally.shadow_rays));
