@@ -39,7 +39,8 @@ add_cli_tests(usage no_command unknown_command unknown_option missing_argument s
 add_cli_tests(input missing_scene folder_as_scene bad_scene bad_scene_among_good_ones)
 add_cli_tests(output formats same_bits_on_both_backends exr_metadata transfer unknown_suffix unwritable_folder
               missing_folder disk_full existing_file_kept_on_failure crop_of_16384 stats)
-add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer devices)
+add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer loops_ended_early
+              devices)
 add_cli_tests(check agreement difference tolerance allow heatmap json worst_status)
 add_cli_tests(interrupt sigint_on_device sigint_on_cpu sigterm)
 add_cli_tests(progress on_a_terminal not_elsewhere quiet)

@@ -1,6 +1,6 @@
 #!/bin/bash
 # scatter_spheres.sh COUNT: a scene of so many small spheres of all materials, the same for the same COUNT. Above 24
-# objects the scene is not copied to registers, above 1024 it does not fit a uniform buffer of 64 KiB, and no bit
+# objects the shader's loops stay loops, above 1024 it does not fit a uniform buffer of 64 KiB, and no bit
 # mask has room for all of them; planes stand before, between and after the spheres.
 set -eu
 count=$1
