@@ -96,9 +96,10 @@ static struct pixel trace_pixel(const struct packed_scene *scene, int x, int y)
     return pixel;
 }
 
+/* A NaN stays to be seen. */
 static double flush_small(real x)
 {
-    return x > (real)SMALLEST_WEIGHT ? (double)x : 0.0;
+    return x < (real)SMALLEST_WEIGHT ? 0.0 : (double)x;
 }
 
 void REFERENCE_RENDER(const struct packed_scene *scene, struct reference_window window, int threads,

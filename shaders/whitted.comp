@@ -246,7 +246,7 @@ real3 render_pixel(uvec2 position, uint base)
     }
     exact real3 value = pixel.radiance;
     for (int c = 0; c < 3; ++c)
-        value[c] = value[c] > real(SMALLEST_WEIGHT) ? value[c] : real(0);
+        value[c] = value[c] < real(SMALLEST_WEIGHT) ? real(0) : value[c]; // a NaN stays to be seen
     return value;
 }
 
@@ -268,6 +268,7 @@ void main()
             for (uint c = 0u; c < 3u; ++c)
                 picture[base + c] = value[c];
     }
-    if (row < ROWS) // cut in this very loop
-        picture[0] = real(-1);
+    uvec2 first = uvec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * ROWS);
+    if (row < ROWS && all(lessThan(first, tile_size))) // cut in this very loop
+        picture[(first.y * tile_size.x + first.x) * 3u] = real(-1);
 }
