@@ -89,7 +89,7 @@ add_custom_target(reference_builds ALL DEPENDS ${programs})
 set(swiftshader VK_ICD_FILENAMES=${VKWHITTED_SWIFTSHADER_ICD} VK_DRIVER_FILES=${VKWHITTED_SWIFTSHADER_ICD})
 function(add_swiftshader_test name)
     add_test(NAME elsewhere/swiftshader/${name} COMMAND vkwhitted ${ARGN})
-    set_tests_properties(elsewhere/swiftshader/${name} PROPERTIES LABELS elsewhere TIMEOUT 300
+    set_tests_properties(elsewhere/swiftshader/${name} PROPERTIES LABELS elsewhere TIMEOUT 900
                          ENVIRONMENT "${swiftshader}")
 endfunction()
 add_swiftshader_test(devices devices)

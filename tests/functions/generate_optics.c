@@ -72,12 +72,10 @@ void generate_refraction(struct random *random, const struct promises *promises,
 
 static void put_roughness(struct random *random, const struct promises *promises, struct word_writer *inputs)
 {
-    double roughness = promises->lambert ? 0 : random_between(random, 0, 1.6);
-    if (random_below(random, 8) == 0)
-        roughness = 0;
+    double roughness = random_below(random, 8) == 0 ? 0 : random_between(random, 0, 1.6);
     double square = roughness * roughness;
     put_real(inputs, "A", round_number(1 - 0.5 * square / (square + 0.33)));
-    put_real(inputs, "B", round_number(0.45 * square / (square + 0.09)));
+    put_real(inputs, "B", promises->lambert ? 0 : round_number(0.45 * square / (square + 0.09)));
 }
 
 struct matte_case {
