@@ -1,0 +1,50 @@
+#ifndef VKWHITTED_TRACER_PRIVATE_H
+#define VKWHITTED_TRACER_PRIVATE_H
+
+/* Shared by tracer.c, which builds a tracer, and tracer_render.c, which runs it; for no other file. */
+
+#include "specialization.h"
+#include "tracer.h"
+#include "vulkan_buffer.h"
+
+enum { VIEW, SPHERES, PLANES, POINT_LIGHTS, QUAD_LIGHTS, SCENE_BINDINGS, PICTURE = SCENE_BINDINGS, BINDINGS };
+
+enum { CHANNELS = 3 };
+
+struct tracer {
+    struct vulkan_context *context;
+    bool scene_in_storage, double_precision;
+    const struct packed_scene *packed;
+    struct tracer_options options;
+    struct group_shape shape;
+    unsigned tile_pixels, samples_per_dispatch;
+    struct vulkan_buffer scene, picture;
+    struct vulkan_buffer staging; /* only where the host cannot read `picture` well */
+    VkDescriptorBufferInfo bindings[BINDINGS];
+    VkDescriptorSetLayout set_layout;
+    VkPipelineLayout pipeline_layout;
+    VkPipeline pipeline;
+    VkDescriptorPool descriptor_pool;
+    VkDescriptorSet set;
+    VkCommandPool command_pool;
+    VkCommandBuffer commands;
+    VkQueryPool timestamps;
+    VkFence fence;
+    unsigned picture_width, picture_height;
+};
+
+/* As in whitted.comp. */
+struct push_constants {
+    uint32_t tile_x, tile_y, tile_width, tile_height, picture_width, picture_height, first_sample, end_sample;
+};
+
+/* Bytes. */
+static inline size_t pixel_size(const struct tracer *tracer)
+{
+    return CHANNELS * (tracer->double_precision ? sizeof(double) : sizeof(float));
+}
+
+/* Builds tracer->pipeline for the current shape; there is none yet. */
+enum status tracer_build_pipeline(struct tracer *tracer);
+
+#endif
