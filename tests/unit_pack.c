@@ -88,8 +88,8 @@ static void check_same(const struct packed_scene *a, const struct packed_scene *
 
 static void scaling_by_powers_of_two(void **state)
 {
-    static const char *const names[] = {"scenes/figure_2b.yaml",        "scenes/figure_4.yaml",
-                                        "tests/scenes/ten_lights.yaml", "tests/scenes/oblique_planes.yaml",
+    static const char *const names[] = {"scenes/figure_2b.yaml",         "scenes/figure_4.yaml",
+                                        "tests/scenes/ten_lights.yaml",  "tests/scenes/oblique_planes.yaml",
                                         "tests/scenes/under_glass.yaml", "tests/scenes/ties.yaml"};
     static const int exponents[] = {1, -1, 20, -20};
     (void)state;
@@ -176,6 +176,22 @@ static void lights_behind_planes(void **state)
     assert_int_equal(packed.planes[0].surface.tags.z, 0);
     assert_int_equal(packed.planes[1].surface.tags.z, 1); /* glass can always stand between */
     assert_int_equal(packed.planes[2].surface.tags.z, 1);
+    pack_destroy(&packed);
+}
+
+/* Whatever else the scene holds a thousand kilometres away, 0.4 m behind a wall is behind it. */
+static void lights_behind_planes_of_large_scenes(void **state)
+{
+    (void)state;
+    struct packed_scene packed =
+        pack("objects:\n"
+             "  - { name: A, type: sphere, center: [0, -1000000, 0], radius: 1000000, material: Matte }\n"
+             "  - { name: B, type: plane, point: [0, 0, 3], normal: [0, 0, -1], material: Matte }\n"
+             "lights:\n"
+             "  - { type: point, position: [0, 3, 3.4], color: [1, 1, 1], power: 1 }\n"
+             "  - { type: quad, corner: [-1, 3, 3.4], u: [2, 0, 0], v: [0, 2, 0], power: 5 }\n");
+    assert_int_equal(packed.point_light_count, 0);
+    assert_int_equal(packed.planes[0].surface.tags.z, 1);
     pack_destroy(&packed);
 }
 
@@ -268,7 +284,7 @@ int main(void)
         cmocka_unit_test(scaling_by_powers_of_two), cmocka_unit_test(planes_face_the_camera),
         cmocka_unit_test(coincident_objects),       cmocka_unit_test(lights_behind_planes),
         cmocka_unit_test(hollow_spheres),           cmocka_unit_test(overlap_warnings),
-        cmocka_unit_test(lights_too_bright),
+        cmocka_unit_test(lights_too_bright),        cmocka_unit_test(lights_behind_planes_of_large_scenes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
