@@ -85,7 +85,7 @@ add_reference_build(aarch64_gcc_O3 ${VKWHITTED_AARCH64_GCC} -O3 -static)
 add_reference_build(aarch64_clang_O3 ${VKWHITTED_CLANG} --target=aarch64-linux-gnu -O3 -static)
 add_custom_target(reference_builds ALL DEPENDS ${programs})
 
-# SwiftShader takes seconds to compile a pipeline.
+# SwiftShader takes 4 to 20 s to compile a pipeline.
 set(swiftshader VK_ICD_FILENAMES=${VKWHITTED_SWIFTSHADER_ICD} VK_DRIVER_FILES=${VKWHITTED_SWIFTSHADER_ICD})
 function(add_swiftshader_test name)
     add_test(NAME elsewhere/swiftshader/${name} COMMAND vkwhitted ${ARGN})
@@ -98,7 +98,12 @@ foreach(scene IN LISTS figure_scenes)
     cmake_path(GET scene STEM name)
     add_swiftshader_test(${name}/150x100 check --size 150x100 ${scene})
 endforeach()
-foreach(scene IN LISTS hard_scenes)
+set(swiftshader_scenes ${hard_scenes})
+if(NOT VKWHITTED_SLOW_TESTS)
+    list(FILTER swiftshader_scenes INCLUDE REGEX
+         "/(bubble|coincident_planes|diamond|ground_sphere|light_in_plane|thin_shell|tiny_sphere)\\.yaml$")
+endif()
+foreach(scene IN LISTS swiftshader_scenes)
     cmake_path(GET scene STEM name)
     add_swiftshader_test(${name}/60x40 check --size 60x40 ${scene})
 endforeach()
