@@ -19,6 +19,9 @@ static enum status report(const struct options *options, const char *scene, cons
     if (truth->unexplained > 0)
         printf(" @ (%u, %u)%s", truth->unexplained_x, truth->unexplained_y, explained ? "" : "  UNEXPLAINED");
     putchar('\n');
+    enum status status = explained ? STATUS_DONE : STATUS_DIFFERS;
+    if (!options->json)
+        return status;
     json_t *result =
         json_pack("{s:s, s:s, s:b, s:{s:f, s:f, s:f, s:f}, s:f, s:I, s:I, s:I}", "scene", scene, "against",
                   precision, "explained", explained, "relative_error", "median", truth->median,
@@ -30,7 +33,7 @@ static enum status report(const struct options *options, const char *scene, cons
         log_error("no memory for the result of %s, or its name is not UTF-8", scene);
         return STATUS_UNABLE;
     }
-    return explained ? STATUS_DONE : STATUS_DIFFERS;
+    return status;
 }
 
 enum status check_truth(const struct options *options, struct vulkan_context *context, const char *scene,

@@ -1,5 +1,6 @@
 #include "command_check.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "check_truth.h"
@@ -21,17 +22,22 @@ static enum status report(const struct options *options, const char *scene, cons
     printf("%s: %zu of %zu pixels differ, max error %.9g @ (%u, %u, %s)%s\n", scene, comparison->differing,
            (size_t)image->width * image->height, comparison->max_error, comparison->x, comparison->y,
            channels[comparison->channel], agrees ? "" : "  DIFFERS");
+    enum status status = agrees ? STATUS_DONE : STATUS_DIFFERS;
+    if (!options->json)
+        return status;
+    /* JSON has no infinity. */
+    json_t *max_error = isfinite(comparison->max_error) ? json_real(comparison->max_error) : json_null();
     json_t *result =
-        json_pack("{s:s, s:b, s:i, s:i, s:I, s:I, s:f, s:{s:i, s:i, s:s}}", "scene", scene, "agrees", agrees,
+        json_pack("{s:s, s:b, s:i, s:i, s:I, s:I, s:o, s:{s:i, s:i, s:s}}", "scene", scene, "agrees", agrees,
                   "width", (int)image->width, "height", (int)image->height, "differing_pixels",
                   (json_int_t)comparison->differing, "bit_differing_pixels",
-                  (json_int_t)comparison->bit_differing, "max_error", comparison->max_error, "at", "x",
+                  (json_int_t)comparison->bit_differing, "max_error", max_error, "at", "x",
                   (int)comparison->x, "y", (int)comparison->y, "channel", channels[comparison->channel]);
     if (json_array_append_new(results, result) != 0) {
-        log_error("no memory for the result of %s", scene);
+        log_error("no memory for the result of %s, or its name is not UTF-8", scene);
         return STATUS_UNABLE;
     }
-    return agrees ? STATUS_DONE : STATUS_DIFFERS;
+    return status;
 }
 
 static enum status compare_renderings(const struct options *options, const char *scene,
