@@ -45,17 +45,14 @@ SCENE_ARRAY(4, PackedQuadLight, quad_lights, QUAD_LIGHTS);
 // small scenes are copied to variables first thing; their loops are unrolled, which makes registers of them.
 const bool HOISTED = SPHERES + PLANES + POINT_LIGHTS + QUAD_LIGHTS <= 24;
 
-// Loops over objects and lights: unrolled where the scene is small, and never where it is not, which would take
-// compilers minutes.
-#define FOR_EACH(i, count, statement)                      \
-    if (HOISTED) {                                         \
-        [[unroll]] for (int i = 0; i < count; ++i)         \
-            statement                                      \
-    } else {                                               \
-        int i = 0;                                         \
-        [[dont_unroll]] for (; i < count; ++i)             \
-            statement                                      \
-        loop_cut = loop_cut || i < count;                  \
+// A loop over objects or lights. Drivers unroll it by themselves where the scene is small; made to unroll 400
+// objects, lavapipe's compiler takes minutes.
+#define FOR_EACH(i, count, statement)             \
+    {                                             \
+        int i = 0;                                \
+        for (; i < count; ++i)                    \
+            statement                             \
+        loop_cut = loop_cut || i < count;         \
     }
 
 // The driver ended a loop early: lavapipe allows 65535 turns of all loops of an invocation together.
