@@ -1,5 +1,5 @@
-/* json_get FILE [KEY|INDEX]...: prints the value at that place of a JSON file, a string without quotes; for arrays
- * and objects their size. Exit status 1 where there is no such value or the file is no JSON. */
+/* json_get FILE [KEY|INDEX]...: prints the value at that place of a JSON file, a string without quotes; for
+ * arrays and objects their size. Exit status 1 where there is no such value or the file is no JSON. */
 #include <stdio.h>
 #include <stdlib.h>
 

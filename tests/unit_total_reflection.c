@@ -11,8 +11,8 @@
 
 #include "test_render.h"
 
-/* The sine of the angle of incidence at the ball's inside for pixel (x, y): the ray's distance from the centre. The
- * camera is at (0.9, 0, 0) looking along +z, so +x is on the left. */
+/* The sine of the angle of incidence at the ball's inside for pixel (x, y): the ray's distance from the
+ * centre. The camera is at (0.9, 0, 0) looking along +z, so +x is on the left. */
 static double sine_of_incidence(unsigned x, unsigned y)
 {
     double half_height = tan(50 * 3.14159265358979323846 / 180);

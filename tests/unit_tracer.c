@@ -1,4 +1,5 @@
-/* The picture's bits depend on the scene alone: not on how the work is cut up, nor where the scene's data lie. */
+/* The picture's bits depend on the scene alone: not on how the work is cut up, nor where the scene's data
+ * lie. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -82,8 +83,8 @@ static void group_size(void **state)
     static const unsigned groups[][2] = {{1, 1}, {16, 4}, {64, 1}, {8, 8}, {7, 3}};
     (void)state;
     for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i)
-        compare_with_whole(
-            (struct tracer_options){.group_width = groups[i][0], .group_height = groups[i][1]}, whole_window);
+        compare_with_whole((struct tracer_options){.group_width = groups[i][0], .group_height = groups[i][1]},
+                           whole_window);
 }
 
 /* Below a row, a few rows, no divisor of anything, more than the picture. */
@@ -97,8 +98,11 @@ static void tile_size(void **state)
 
 static void crop(void **state)
 {
-    static const struct window windows[] = {
-        {0, 0, 1, 1}, {WIDTH - 1, HEIGHT - 1, 1, 1}, {17, 31, 101, 67}, {0, 100, WIDTH, 1}, {200, 0, 1, HEIGHT}};
+    static const struct window windows[] = {{0, 0, 1, 1},
+                                            {WIDTH - 1, HEIGHT - 1, 1, 1},
+                                            {17, 31, 101, 67},
+                                            {0, 100, WIDTH, 1},
+                                            {200, 0, 1, HEIGHT}};
     (void)state;
     for (size_t i = 0; i < sizeof windows / sizeof *windows; ++i)
         compare_with_whole((struct tracer_options){0}, windows[i]);
@@ -114,7 +118,8 @@ static void scene_in_storage_buffers(void **state)
     test_context->properties.limits.maxUniformBufferRange = real_limit;
 }
 
-/* What fast mode may change is rounding: few pixels come out visibly different (those that look at an edge). */
+/* What fast mode may change is rounding: few pixels come out visibly different (those that look at an edge).
+ */
 static void fast_mode_is_close(void **state)
 {
     (void)state;

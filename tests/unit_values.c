@@ -44,19 +44,19 @@ struct pixel_value {
     double rgb[3];
 };
 
-/* Lambert: the figures with roughness 0. Radiance albedo / pi cos power / d^2 along the rays and Fresnel's k_r
- * and 1 - k_r where glass splits them, by hand. */
+/* Lambert: the figures with roughness 0. Radiance albedo / pi cos power / d^2 along the rays and Fresnel's
+ * k_r and 1 - k_r where glass splits them, by hand. */
 static void lambert_figures(void **state)
 {
     static const struct pixel_value values[] = {
-        {"scenes/figure_2a.yaml", 310, 150, {.314788, 0, .314788}},         /* far wall */
-        {"scenes/figure_2a.yaml", 50, 200, {.770356, 0, 0}},                /* left wall */
-        {"scenes/figure_2a.yaml", 300, 350, {.138940, .138940, .138940}},   /* ground */
-        {"scenes/figure_2a.yaml", 150, 360, {0, 0, 0}},                     /* in a sphere's shadow */
+        {"scenes/figure_2a.yaml", 310, 150, {.314788, 0, .314788}},          /* far wall */
+        {"scenes/figure_2a.yaml", 50, 200, {.770356, 0, 0}},                 /* left wall */
+        {"scenes/figure_2a.yaml", 300, 350, {.138940, .138940, .138940}},    /* ground */
+        {"scenes/figure_2a.yaml", 150, 360, {0, 0, 0}},                      /* in a sphere's shadow */
         {"scenes/figure_2a.yaml", 370, 240, {1.376701, 1.376701, 1.376701}}, /* sphere */
-        {"scenes/figure_4.yaml", 220, 280, {.159695, .000124, .159722}},    /* through the glass sphere */
-        {"scenes/figure_4.yaml", 243, 310, {.172948, .014344, .172948}},    /* near its rim */
-        {"scenes/figure_4.yaml", 370, 240, {0, 3.265356, 0}},               /* the ceiling in the mirror */
+        {"scenes/figure_4.yaml", 220, 280, {.159695, .000124, .159722}},     /* through the glass sphere */
+        {"scenes/figure_4.yaml", 243, 310, {.172948, .014344, .172948}},     /* near its rim */
+        {"scenes/figure_4.yaml", 370, 240, {0, 3.265356, 0}},                /* the ceiling in the mirror */
     };
     (void)state;
     for (size_t i = 0; i < sizeof values / sizeof *values; ++i) {
@@ -68,9 +68,9 @@ static void lambert_figures(void **state)
     }
 }
 
-/* Oren and Nayar's formula as their paper has it, with angles, f = albedo / pi (A + B max(0, cos(phi_i - phi_r))
- * sin alpha tan beta), alpha the larger and beta the smaller of the polar angles. All in double, from vectors
- * that point away from the surface. */
+/* Oren and Nayar's formula as their paper has it, with angles, f = albedo / pi (A + B max(0, cos(phi_i -
+ * phi_r)) sin alpha tan beta), alpha the larger and beta the smaller of the polar angles. All in double, from
+ * vectors that point away from the surface. */
 static double oren_nayar_by_angles(const double normal[3], const double to_light[3], const double to_eye[3],
                                    double sigma)
 {
@@ -147,7 +147,8 @@ struct textbook_pixel {
     double irradiance_factor; /* radiance per unit of albedo */
 };
 
-/* What point (x, y) of figure 2(a)'s picture shows: camera at (0, 2, -6) looking along +z, so +x is on the left. */
+/* What point (x, y) of figure 2(a)'s picture shows: camera at (0, 2, -6) looking along +z, so +x is on the
+ * left. */
 static struct textbook_pixel textbook_pixel(const struct scene *scene, double x, double y)
 {
     const double eye[3] = {0, 2, -6};
@@ -179,10 +180,9 @@ static struct textbook_pixel textbook_pixel(const struct scene *scene, double x,
     }
     pixel.lit = cosine > 0 && met == pixel.object && blocked_at > 1 - 1e-6;
     if (pixel.lit)
-        pixel.irradiance_factor =
-            oren_nayar_by_angles(normal, to_light, to_eye,
-                                 scene->materials[pixel.object->material].roughness) *
-            scene->lights[0].power * cosine / squared;
+        pixel.irradiance_factor = oren_nayar_by_angles(normal, to_light, to_eye,
+                                                       scene->materials[pixel.object->material].roughness) *
+                                  scene->lights[0].power * cosine / squared;
     return pixel;
 }
 
