@@ -8,7 +8,7 @@ on_a_terminal() {
     grep -aqE 'rendering \[#* *\] +[0-9]+ %' typescript || fail 'no progress bar'
     last=$(tr '\r' '\n' <typescript | grep -a 'ms on cpu')
     [ -n "$last" ] || fail 'the bar was not wiped before the message'
-    script -qec "$VKWHITTED render $small $figure" typescript >/dev/null </dev/null
+    script -qec "$VKWHITTED render $small $figure --backend cpu" typescript >/dev/null </dev/null
     ! grep -aq 'rendering \[' typescript || fail 'a bar for short work'
 }
 
