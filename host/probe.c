@@ -11,7 +11,7 @@
 #include "progress.h"
 #include "vulkan_compute.h"
 
-enum { PROBES = 1 << 14, GROUP = 64 };
+enum { PROBES = 1 << 16, GROUP = 64 };
 static const uint64_t seed = 1980;
 
 /* In the order of probe.comp. */
