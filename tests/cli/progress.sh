@@ -1,7 +1,7 @@
 . "$(dirname "$0")/lib.sh"
 
 command -v script >/dev/null || skip 'no script(1) of util-linux'
-long="render $figure --size 1200x800 --samples 2 --backend cpu"
+long="render $figure --size 1200x800 --samples 8 --backend cpu --threads 1"
 
 on_a_terminal() {
     script -qec "$VKWHITTED $long" typescript >/dev/null </dev/null || fail 'exit status'
