@@ -4,21 +4,17 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "statistics.h"
+
 const char *precision_name(enum precision precision)
 {
     static const char *const names[] = {"float", "double", "quad"};
     return names[precision];
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    double left = *(const double *)a, right = *(const double *)b;
-    return (left > right) - (left < right);
-}
-
 static double median(double *values, size_t count)
 {
-    qsort(values, count, sizeof *values, compare_doubles);
+    sort_doubles(values, count);
     return count % 2 ? values[count / 2] : (values[count / 2 - 1] + values[count / 2]) / 2;
 }
 

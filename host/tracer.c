@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "probe.h"
-#include "whitted_spirv.h"
+#include "vulkan_pipeline.h"
 
 /* Lays the scene's parts out in one buffer; a part has room for at least one element. */
 static enum status upload_scene(struct tracer *tracer, const struct packed_scene *scene)
@@ -70,7 +70,6 @@ static enum status create_picture(struct tracer *tracer)
 enum status tracer_build_pipeline(struct tracer *tracer)
 {
     const struct tracer_options *options = &tracer->options;
-    const VkDevice device = tracer->context->device;
     const struct arithmetic *arithmetic = &tracer->context->arithmetic;
     bool native = arithmetic->division_exact && arithmetic->root_exact;
     const struct spirv code = whitted_spirv(options->double_precision ? WHITTED_DOUBLE
@@ -81,46 +80,12 @@ enum status tracer_build_pipeline(struct tracer *tracer)
     struct specialization constants = specialize(tracer->packed, &tracer->shape, options->output);
     constants.corrected_division = !arithmetic->division_exact;
     constants.corrected_root = !arithmetic->root_exact;
-    VkSpecializationMapEntry entries[sizeof constants / sizeof(uint32_t)];
-    for (uint32_t i = 0; i < sizeof entries / sizeof *entries; ++i)
-        entries[i] = (VkSpecializationMapEntry){i, i * (uint32_t)sizeof(uint32_t), sizeof(uint32_t)};
-
-    VkShaderModule module = VK_NULL_HANDLE;
     double start = clock_ms();
-    VULKAN_CALL(vkCreateShaderModule, device,
-                &(VkShaderModuleCreateInfo){
-                    .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                    .codeSize = code.size,
-                    .pCode = code.words,
-                },
-                NULL, &module);
-    VULKAN_CALL(vkCreateComputePipelines, device, VK_NULL_HANDLE, 1,
-                &(VkComputePipelineCreateInfo){
-                    .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-                    .stage =
-                        {
-                            .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                            .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                            .module = module,
-                            .pName = "main",
-                            .pSpecializationInfo =
-                                &(VkSpecializationInfo){
-                                    .mapEntryCount = sizeof entries / sizeof *entries,
-                                    .pMapEntries = entries,
-                                    .dataSize = sizeof constants,
-                                    .pData = &constants,
-                                },
-                        },
-                    .layout = tracer->pipeline_layout,
-                },
-                NULL, &tracer->pipeline);
-    vkDestroyShaderModule(device, module, NULL);
+    enum status status =
+        vulkan_pipeline_create(tracer->context, code, tracer->pipeline_layout, (const uint32_t *)&constants,
+                               sizeof constants / sizeof(uint32_t), &tracer->pipeline);
     log_info("pipeline built in %.1f ms", clock_ms() - start);
-    return STATUS_DONE;
-
-error:
-    vkDestroyShaderModule(device, module, NULL);
-    return STATUS_UNABLE;
+    return status;
 }
 
 static enum status create_layout(struct tracer *tracer)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "image_formats.h"
+#include "statistics.h"
 #include "viridis.h"
 
 static const double relative_floor = 1e-3;
@@ -28,12 +29,6 @@ static double share_of_bound(const float *rgb, const struct reference_explanatio
         worst = fmax(worst, isnan(share) ? INFINITY : share);
     }
     return worst;
-}
-
-static int compare_doubles(const void *a, const void *b)
-{
-    double left = *(const double *)a, right = *(const double *)b;
-    return (left > right) - (left < right);
 }
 
 static double quantile(const double *sorted, size_t count, double fraction)
@@ -73,7 +68,7 @@ enum status truth_judge(const struct image *image, const uint32_t *signatures,
         if (same)
             errors[count++] = error;
     }
-    qsort(errors, count, sizeof *errors, compare_doubles);
+    sort_doubles(errors, count);
     truth->median = quantile(errors, count, 0.5);
     truth->percentile_99 = quantile(errors, count, 0.99);
     truth->percentile_99_99 = quantile(errors, count, 0.9999);

@@ -3,8 +3,9 @@
 #include <string.h>
 
 #include "vulkan_buffer.h"
+#include "vulkan_pipeline.h"
 
-enum { INPUT, OUTPUT_BUFFER, BUFFERS, MOST_CONSTANTS = 8 };
+enum { INPUT, OUTPUT_BUFFER, BUFFERS };
 
 /* What exists while a job runs. */
 struct running {
@@ -12,7 +13,6 @@ struct running {
     struct vulkan_buffer buffers[BUFFERS];
     VkDescriptorSetLayout set_layout;
     VkPipelineLayout pipeline_layout;
-    VkShaderModule module;
     VkPipeline pipeline;
     VkDescriptorPool descriptor_pool;
     VkDescriptorSet set;
@@ -94,12 +94,10 @@ error:
     return STATUS_UNABLE;
 }
 
-static enum status create_pipeline(struct running *running, const struct compute_job *job)
+static enum status create_pipeline(struct vulkan_context *context, struct running *running,
+                                   const struct compute_job *job)
 {
     const VkDevice device = running->device;
-    VkSpecializationMapEntry entries[MOST_CONSTANTS];
-    for (uint32_t i = 0; i < job->constant_count; ++i)
-        entries[i] = (VkSpecializationMapEntry){i, i * (uint32_t)sizeof(uint32_t), sizeof(uint32_t)};
     VULKAN_CALL(vkCreatePipelineLayout, device,
                 &(VkPipelineLayoutCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
@@ -107,34 +105,8 @@ static enum status create_pipeline(struct running *running, const struct compute
                     .pSetLayouts = &running->set_layout,
                 },
                 NULL, &running->pipeline_layout);
-    VULKAN_CALL(vkCreateShaderModule, device,
-                &(VkShaderModuleCreateInfo){
-                    .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                    .codeSize = job->code.size,
-                    .pCode = job->code.words,
-                },
-                NULL, &running->module);
-    VULKAN_CALL(vkCreateComputePipelines, device, VK_NULL_HANDLE, 1,
-                &(VkComputePipelineCreateInfo){
-                    .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-                    .stage =
-                        {
-                            .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                            .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                            .module = running->module,
-                            .pName = "main",
-                            .pSpecializationInfo =
-                                &(VkSpecializationInfo){
-                                    .mapEntryCount = job->constant_count,
-                                    .pMapEntries = entries,
-                                    .dataSize = job->constant_count * sizeof *job->constants,
-                                    .pData = job->constants,
-                                },
-                        },
-                    .layout = running->pipeline_layout,
-                },
-                NULL, &running->pipeline);
-    return STATUS_DONE;
+    return vulkan_pipeline_create(context, job->code, running->pipeline_layout, job->constants,
+                                  job->constant_count, &running->pipeline);
 
 error:
     return STATUS_UNABLE;
@@ -195,13 +167,11 @@ enum status vulkan_compute(struct vulkan_context *context, const struct compute_
 {
     struct running running = {.device = context->device};
     const VkDevice device = context->device;
-    enum status status = job->constant_count <= MOST_CONSTANTS ? STATUS_DONE : STATUS_UNABLE;
-    if (status == STATUS_DONE)
-        status = create_buffers(context, &running, job);
+    enum status status = create_buffers(context, &running, job);
     if (status == STATUS_DONE)
         status = create_set(&running);
     if (status == STATUS_DONE)
-        status = create_pipeline(&running, job);
+        status = create_pipeline(context, &running, job);
     if (status == STATUS_DONE)
         status = submit(context, &running, job->groups);
     if (status == STATUS_DONE)
@@ -209,7 +179,6 @@ enum status vulkan_compute(struct vulkan_context *context, const struct compute_
     vkDestroyFence(device, running.fence, NULL);
     vkDestroyCommandPool(device, running.command_pool, NULL);
     vkDestroyPipeline(device, running.pipeline, NULL);
-    vkDestroyShaderModule(device, running.module, NULL);
     vkDestroyPipelineLayout(device, running.pipeline_layout, NULL);
     vkDestroyDescriptorPool(device, running.descriptor_pool, NULL);
     vkDestroyDescriptorSetLayout(device, running.set_layout, NULL);

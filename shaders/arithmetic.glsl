@@ -65,12 +65,6 @@ real dot3(real3 a, real3 b)
 #endif
 }
 
-real3 along(real3 origin, real distance, real3 direction)
-{
-    exact real3 point = origin + distance * direction;
-    return point;
-}
-
 // Unit vector of v, by one division.
 real3 unit(real3 v)
 {
