@@ -13,6 +13,7 @@ static const char help_text[] =
     "  --max-bounces N          0 to 1000, instead of the scene's\n"
     "  --samples N              samples a pixel, 1 to 65536 (default 1: the pixel's centre)\n"
     "  --light-samples N        samples a quad light, 1 to 65536, instead of the scene's\n"
+    "  --max-error E            leave out rays that together change no pixel by more than E\n"
     "\n"
     "  --backend vulkan|cpu     cpu: the plain-C reference (check: with --against)\n"
     "  --precision float|double|quad   double on a device that has it, quad on the CPU\n"

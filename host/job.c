@@ -27,6 +27,8 @@ enum status job_create(const struct options *options, const char *scene_path, st
         .max_bounces = options->max_bounces >= 0 ? (unsigned)options->max_bounces : scene.max_bounces,
         .samples = options->samples,
         .light_samples = options->light_samples ? options->light_samples : scene.light_samples,
+        .has_max_error = options->has_max_error,
+        .max_error = options->max_error,
     };
     job->max_bounces = settings.max_bounces;
     job->plan = (struct render_plan){

@@ -25,6 +25,7 @@ enum option_id {
     OPTION_MAX_BOUNCES,
     OPTION_SAMPLES,
     OPTION_LIGHT_SAMPLES,
+    OPTION_MAX_ERROR,
     OPTION_CROP,
     OPTION_THREADS,
     OPTION_TRANSFER,
@@ -49,6 +50,7 @@ static const struct option long_options[] = {
     {"max-bounces", required_argument, NULL, OPTION_MAX_BOUNCES},
     {"samples", required_argument, NULL, OPTION_SAMPLES},
     {"light-samples", required_argument, NULL, OPTION_LIGHT_SAMPLES},
+    {"max-error", required_argument, NULL, OPTION_MAX_ERROR},
     {"crop", required_argument, NULL, OPTION_CROP},
     {"threads", required_argument, NULL, OPTION_THREADS},
     {"transfer", required_argument, NULL, OPTION_TRANSFER},
@@ -180,6 +182,14 @@ static enum status read_tolerance(int id, const char *argument, struct options *
     return STATUS_DONE;
 }
 
+static enum status read_max_error(int id, const char *argument, struct options *options)
+{
+    if (!parse_double(argument, strlen(argument), &options->max_error) || options->max_error < 0)
+        return refuse(id, argument, "a radiance, not negative");
+    options->has_max_error = true;
+    return STATUS_DONE;
+}
+
 static enum status read_count(int id, const char *argument, unsigned long *count)
 {
     if (parse_unsigned(argument, strlen(argument), (unsigned long)SCENE_MAX_SIZE * SCENE_MAX_SIZE, count))
@@ -234,6 +244,8 @@ static enum status read_option(int id, const char *argument, struct options *opt
         return read_number(id, argument, 1, SCENE_MAX_SAMPLES, &options->samples);
     case OPTION_LIGHT_SAMPLES:
         return read_number(id, argument, 1, SCENE_MAX_SAMPLES, &options->light_samples);
+    case OPTION_MAX_ERROR:
+        return read_max_error(id, argument, options);
     case OPTION_THREADS:
         return read_number(id, argument, 1, 1024, &options->threads);
     case OPTION_REPEAT:
@@ -291,6 +303,8 @@ static enum status check_consistency(const struct options *options)
         problem = "check --backend cpu needs --against double or quad";
     else if (options->against != PRECISION_FLOAT && options->has_tolerance)
         problem = "--tolerance does not go with --against, which derives a bound for every pixel";
+    else if (options->against != PRECISION_FLOAT && options->has_max_error)
+        problem = "--max-error does not go with --against, which judges rounding alone";
     else if (options->heatmap && options->scene_count > 1)
         problem = "--heatmap takes one scene file";
     else if (options->heatmap && image_format_of(options->heatmap) != IMAGE_FORMAT_PNG)

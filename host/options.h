@@ -26,6 +26,8 @@ struct options {
     int max_bounces;        /* -1: the scene's */
     unsigned samples;       /* a pixel */
     unsigned light_samples; /* 0: the scene's */
+    bool has_max_error;
+    double max_error; /* linear radiance */
     bool has_crop;
     struct window crop;
     unsigned threads; /* 0: all */
