@@ -9,7 +9,7 @@
 
 struct pixel {
     const struct packed_scene *scene;
-    uint32_t seed, sample, shaded;
+    uint32_t seed, sample;
     struct vec3 radiance, error;
     double margin;
     struct tally tally;
@@ -20,6 +20,7 @@ struct tracked_path {
     struct ray_error error;
     double weight, e_weight;
     int bounces;
+    uint32_t branch; /* as in tracer.c */
 };
 
 static void trace(struct pixel *pixel, const struct tracked_path *path);
@@ -42,9 +43,8 @@ static void gather_matte(struct pixel *pixel, const struct tracked_path *path, c
                          struct hit_error hit_error)
 {
     const struct packed_scene *scene = pixel->scene;
-    uint32_t seed = hash32(pixel->seed + pixel->shaded * (uint32_t)scene->quad_light_count);
+    uint32_t seed = hash32(pixel->seed + path->branch * (uint32_t)scene->quad_light_count);
     struct vec3 albedo = vector_of(hit->material->parameters), error;
-    ++pixel->shaded;
     struct vec3 light = track_lights(scene, &path->ray, hit, hit_error, path->error.direction, seed,
                                      pixel->sample, &error, &pixel->tally, &pixel->margin);
     gather(pixel, path, multiply(albedo, light), multiply(albedo, error));
@@ -71,8 +71,10 @@ static void trace_dielectric(struct pixel *pixel, const struct tracked_path *pat
     refracted.ray.direction = refraction.direction;
     refracted.ray.inward = !hit->leaving;
     refracted.error.direction = error.refracted_direction;
+    refracted.branch = 2 * path->branch + 1;
     refracted.weight = path->weight * (1 - reflectance);
     refracted.e_weight = path->e_weight * (1 - reflectance) + e_split;
+    reflected.branch = 2 * path->branch + 2;
     reflected.weight = path->weight * reflectance;
     reflected.e_weight =
         path->e_weight * reflectance + path->weight * error.reflectance + rounding(reflected.weight);
@@ -126,7 +128,6 @@ static struct pixel explain_pixel(const struct packed_scene *scene, int x, int y
     };
     for (uint32_t k = 0; k < (uint32_t)scene->samples; ++k) {
         pixel.sample = k;
-        pixel.shaded = 0;
         struct tracked_path path = {
             .ray = camera_ray(scene, x, y, k),
             .error = {.origin = 0, .direction = rounding(1)},

@@ -14,15 +14,22 @@ struct reference_window {
     int x, y, width, height;
 };
 
-/* Traces the window of the scene's picture in float, double or binary128, on so many threads, and writes
- * linear RGB radiance, rounded to double, row by row from the top: 3 * width * height values. Adds the rays
- * it traced to *rays. The float build computes what the shader does in exact mode, operation by operation. */
+/* What the window's pixels get, row by row from the top. */
+struct reference_picture {
+    double *rgb;          /* linear RGB radiance, rounded to double: 3 * width * height */
+    uint32_t *signatures; /* hash of every decision of the ray tree; NULL: not wanted */
+    double *charges;      /* OUTPUT_TRUNCATION of scene_layout.h; NULL: not wanted */
+    struct reference_rays rays; /* what was traced is added */
+};
+
+/* Traces the window of the scene's picture in float, double or binary128, on so many threads. The float build
+ * computes what the shader does in exact mode, operation by operation. */
 void reference_render_float(const struct packed_scene *scene, struct reference_window window, int threads,
-                            double *rgb, uint32_t *signatures, struct reference_rays *rays);
+                            struct reference_picture *picture);
 void reference_render_double(const struct packed_scene *scene, struct reference_window window, int threads,
-                             double *rgb, uint32_t *signatures, struct reference_rays *rays);
+                             struct reference_picture *picture);
 void reference_render_quad(const struct packed_scene *scene, struct reference_window window, int threads,
-                           double *rgb, uint32_t *signatures, struct reference_rays *rays);
+                           struct reference_picture *picture);
 
 /* The exact picture's pixel, and what float may make of it. */
 struct reference_explanation {

@@ -8,85 +8,149 @@
 #include "sobol.h"
 #include "tally.h"
 
-/* What tracing one pixel reads and gathers. */
-struct pixel {
+/* What tracing one sample of a pixel reads and gathers. */
+struct sample {
     const struct packed_scene *scene;
-    uint32_t seed, sample;
-    uint32_t shaded; /* matte points of this sample so far: each draws light samples of its own */
-    struct vec3 radiance;
+    uint32_t seed, index;
+    struct vec3 radiance, rounding; /* the rounded sum, and what rounding took from it */
+    real charge; /* for rays that were not traced */
     struct tally tally;
 };
 
-static void trace(struct pixel *pixel, const struct ray *ray, real weight, int bounces);
+struct path {
+    struct ray ray;
+    real weight;
+    int bounces;
+    uint32_t branch; /* in the binary tree of splits: 0 the root, 2 i + 1 and 2 i + 2 the children of i */
+};
 
-static void trace_secondary(struct pixel *pixel, const struct ray *ray, real weight, int bounces)
+static void trace(struct sample *sample, const struct path *path);
+
+static void trace_secondary(struct sample *sample, const struct path *path)
 {
-    if (!(weight > (real)SMALLEST_WEIGHT))
+    ++sample->tally.rays.secondary;
+    trace(sample, path);
+}
+
+/* The charge with what a ray of this weight may bring on top, rounded up. */
+static real charge_with(const struct sample *sample, real weight)
+{
+    return (sample->charge + weight * (real)sample->scene->view.truncation.x) * (real)ROUND_UP;
+}
+
+/* Whether a ray of this weight is to be traced; otherwise it has been charged. */
+static bool is_traced(struct sample *sample, real weight)
+{
+    real charge = charge_with(sample, weight);
+    if (weight > (real)SMALLEST_WEIGHT && charge > (real)sample->scene->view.truncation.y)
+        return true;
+    sample->charge = charge;
+    return false;
+}
+
+/* Knuth's two-sum (TAOCP 2, 4.2.2): returns a + b and adds the rounding error, exactly, to *rounding. */
+static real add_exactly(real a, real b, real *rounding)
+{
+    real sum = a + b;
+    real added = sum - a;
+    *rounding += (a - (sum - added)) + (b - added);
+    return sum;
+}
+
+static void gather(struct sample *sample, real weight, struct vec3 radiance)
+{
+    struct vec3 leaf = scale(weight, radiance);
+    sample->radiance.x = add_exactly(sample->radiance.x, leaf.x, &sample->rounding.x);
+    sample->radiance.y = add_exactly(sample->radiance.y, leaf.y, &sample->rounding.y);
+    sample->radiance.z = add_exactly(sample->radiance.z, leaf.z, &sample->rounding.z);
+}
+
+static void trace_dielectric(struct sample *sample, const struct path *path, const struct hit *hit,
+                             struct path reflected)
+{
+    struct vec3 direction = path->ray.direction;
+    real cos_in = at_least_zero(-dot(hit->normal, direction));
+    layout_vec4 ior = hit->material->parameters;
+    struct refraction refraction = hit->leaving ? refract(direction, hit->normal, cos_in, ior.z, ior.w)
+                                                : refract(direction, hit->normal, cos_in, ior.x, ior.y);
+    note(&sample->tally, refraction.total);
+    if (refraction.total) {
+        trace_secondary(sample, &reflected);
         return;
-    ++pixel->tally.rays.secondary;
-    trace(pixel, ray, weight, bounces);
+    }
+    struct path refracted = reflected;
+    refracted.ray.direction = refraction.direction;
+    refracted.ray.inward = !hit->leaving;
+    refracted.weight = path->weight * (1 - refraction.reflectance);
+    refracted.branch = 2 * path->branch + 1;
+    reflected.weight = path->weight * refraction.reflectance;
+    reflected.branch = 2 * path->branch + 2;
+    bool reflects = is_traced(sample, reflected.weight);
+    bool refracts = is_traced(sample, refracted.weight);
+    if (refracts)
+        trace_secondary(sample, &refracted);
+    if (reflects)
+        trace_secondary(sample, &reflected);
 }
 
-static void gather(struct pixel *pixel, real weight, struct vec3 radiance)
+/* Adds what the path's ray sees, times its weight, to the sample. */
+static void trace(struct sample *sample, const struct path *path)
 {
-    pixel->radiance = add(pixel->radiance, scale(weight, radiance));
-}
-
-/* Adds what the ray sees, times weight, to the pixel. */
-static void trace(struct pixel *pixel, const struct ray *ray, real weight, int bounces)
-{
-    const struct packed_scene *scene = pixel->scene;
+    const struct packed_scene *scene = sample->scene;
+    const struct ray *ray = &path->ray;
     struct hit hit;
     bool met = find_hit(scene, ray, &hit);
-    note(&pixel->tally, (uint32_t)(hit.surface + 1) * 2 + hit.leaving);
+    note(&sample->tally, (uint32_t)(hit.surface + 1) * 2 + hit.leaving);
     if (!met) {
-        gather(pixel, weight, vector_of(scene->view.background));
+        gather(sample, path->weight, vector_of(scene->view.background));
         return;
     }
     if (hit.material->tags.x == KIND_MATTE) {
-        uint32_t seed = hash32(pixel->seed + pixel->shaded * (uint32_t)scene->quad_light_count);
-        ++pixel->shaded;
-        gather(pixel, weight, reflect_lights(scene, ray, &hit, seed, pixel->sample, &pixel->tally));
+        /* each branch draws light samples of its own, the same whichever others are traced */
+        uint32_t seed = hash32(sample->seed + path->branch * (uint32_t)scene->quad_light_count);
+        gather(sample, path->weight, reflect_lights(scene, ray, &hit, seed, sample->index, &sample->tally));
         return;
     }
-    if (bounces == scene->max_bounces)
+    if (path->bounces == scene->max_bounces) {
+        sample->charge = charge_with(sample, path->weight);
         return;
-
-    real cos_in = at_least_zero(-dot(hit.normal, ray->direction));
-    struct ray reflected = {
+    }
+    struct path reflected = *path;
+    ++reflected.bounces;
+    reflected.ray = (struct ray){
         .origin = hit.point,
-        .direction = reflect(ray->direction, hit.normal, cos_in),
+        .direction = reflect(ray->direction, hit.normal, at_least_zero(-dot(hit.normal, ray->direction))),
         .surface = hit.surface,
         .inward = hit.leaving,
     };
-    if (hit.material->tags.x == KIND_MIRROR) {
-        trace_secondary(pixel, &reflected, weight, bounces + 1);
-        return;
-    }
-    layout_vec4 ior = hit.material->parameters;
-    struct refraction refraction = hit.leaving ? refract(ray->direction, hit.normal, cos_in, ior.z, ior.w)
-                                               : refract(ray->direction, hit.normal, cos_in, ior.x, ior.y);
-    note(&pixel->tally, refraction.total);
-    if (refraction.total) {
-        trace_secondary(pixel, &reflected, weight, bounces + 1);
-        return;
-    }
-    struct ray refracted = reflected;
-    refracted.direction = refraction.direction;
-    refracted.inward = !hit.leaving;
-    trace_secondary(pixel, &refracted, weight * (1 - refraction.reflectance), bounces + 1);
-    trace_secondary(pixel, &reflected, weight * refraction.reflectance, bounces + 1);
+    if (hit.material->tags.x == KIND_MIRROR)
+        trace_secondary(sample, &reflected);
+    else
+        trace_dielectric(sample, path, &hit, reflected);
 }
+
+struct pixel {
+    struct vec3 radiance;
+    real charges; /* summed over the samples */
+    struct tally tally;
+};
 
 static struct pixel trace_pixel(const struct packed_scene *scene, int x, int y)
 {
-    struct pixel pixel = {.scene = scene, .seed = pixel_seed(x, y)};
+    struct pixel pixel = {.charges = 0};
     for (uint32_t k = 0; k < (uint32_t)scene->samples; ++k) {
-        pixel.sample = k;
-        pixel.shaded = 0;
-        struct ray ray = camera_ray(scene, x, y, k);
-        ++pixel.tally.rays.primary;
-        trace(&pixel, &ray, 1, 0);
+        struct sample sample = {
+            .scene = scene,
+            .seed = pixel_seed(x, y),
+            .index = k,
+            .tally = pixel.tally,
+        };
+        struct path path = {.ray = camera_ray(scene, x, y, k), .weight = 1};
+        ++sample.tally.rays.primary;
+        trace(&sample, &path);
+        pixel.radiance = add(pixel.radiance, add(sample.radiance, sample.rounding));
+        pixel.charges = (pixel.charges + sample.charge) * (real)ROUND_UP;
+        pixel.tally = sample.tally;
     }
     if (scene->samples > 1) {
         real count = (real)scene->samples;
@@ -103,25 +167,27 @@ static double flush_small(real x)
 }
 
 void REFERENCE_RENDER(const struct packed_scene *scene, struct reference_window window, int threads,
-                      double *rgb, uint32_t *signatures, struct reference_rays *rays)
+                      struct reference_picture *picture)
 {
     uint64_t primary = 0, secondary = 0, shadow = 0;
 #pragma omp parallel for schedule(dynamic) num_threads(threads) reduction(+ : primary, secondary, shadow)
     for (int row = 0; row < window.height; ++row) {
         for (int column = 0; column < window.width; ++column) {
             struct pixel pixel = trace_pixel(scene, window.x + column, window.y + row);
-            double *out = rgb + ((size_t)row * (size_t)window.width + (size_t)column) * 3;
-            out[0] = flush_small(pixel.radiance.x);
-            out[1] = flush_small(pixel.radiance.y);
-            out[2] = flush_small(pixel.radiance.z);
-            if (signatures)
-                signatures[(size_t)row * (size_t)window.width + (size_t)column] = pixel.tally.signature;
+            size_t place = (size_t)row * (size_t)window.width + (size_t)column;
+            picture->rgb[3 * place] = flush_small(pixel.radiance.x);
+            picture->rgb[3 * place + 1] = flush_small(pixel.radiance.y);
+            picture->rgb[3 * place + 2] = flush_small(pixel.radiance.z);
+            if (picture->signatures)
+                picture->signatures[place] = pixel.tally.signature;
+            if (picture->charges)
+                picture->charges[place] = (double)pixel.charges;
             primary += pixel.tally.rays.primary;
             secondary += pixel.tally.rays.secondary;
             shadow += pixel.tally.rays.shadow;
         }
     }
-    rays->primary += primary;
-    rays->secondary += secondary;
-    rays->shadow += shadow;
+    picture->rays.primary += primary;
+    picture->rays.secondary += secondary;
+    picture->rays.shadow += shadow;
 }

@@ -16,6 +16,14 @@ static enum status check_outputs(const struct options *options)
     return status;
 }
 
+static bool writes_exr(const struct options *options)
+{
+    for (size_t i = 0; i < options->output_count; ++i)
+        if (image_format_of(options->outputs[i]) == IMAGE_FORMAT_EXR)
+            return true;
+    return false;
+}
+
 static enum status write_outputs(const struct options *options, const struct job *job,
                                  const struct rendering *rendering, const char *device)
 {
@@ -31,6 +39,22 @@ static enum status write_outputs(const struct options *options, const struct job
         status = interrupt_requested() ? STATUS_INTERRUPTED
                                        : image_write(&rendering->image, options->outputs[i], &metadata);
     return status;
+}
+
+/* Rays that max_bounces cuts off count against --max-error, and may be too much for it. */
+static void report_truncation(const struct options *options, const struct job *job, const struct image *image)
+{
+    size_t pixels = (size_t)image->width * image->height, beyond = 0;
+    float largest = 0;
+    for (size_t i = 0; i < pixels; ++i) {
+        beyond += (double)image->truncation[i] > options->max_error;
+        largest = image->truncation[i] > largest ? image->truncation[i] : largest;
+    }
+    if (beyond > 0)
+        log_warning("%s: %zu of %zu pixels may be off by more than --max-error %g, by up to %g: rays end after "
+                    "%u bounces; see --max-bounces",
+                    options->scenes[0], beyond, pixels, options->max_error, (double)largest,
+                    job->max_bounces);
 }
 
 static enum status write_stats(const struct options *options, const struct job *job,
@@ -55,6 +79,8 @@ static enum status write_stats(const struct options *options, const struct job *
 static enum status deliver(const struct options *options, const struct job *job, struct rendering *rendering,
                            const char *device, const char *driver)
 {
+    if (options->has_max_error)
+        report_truncation(options, job, &rendering->image);
     double start = clock_ms();
     enum status status = write_outputs(options, job, rendering, device);
     double write_ms = clock_ms() - start;
@@ -97,6 +123,7 @@ enum status command_render(const struct options *options)
     status = job_create(options, options->scenes[0], &job);
     if (status != STATUS_DONE)
         return status;
+    job.plan.bound_truncation = options->has_max_error || writes_exr(options);
     if (options->backend == BACKEND_VULKAN) {
         status = render_vulkan(options, &job);
     } else {

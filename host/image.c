@@ -52,5 +52,6 @@ void image_destroy(struct image *image)
 {
     free(image->rgb);
     free(image->rgb64);
+    free(image->truncation);
     *image = (struct image){0};
 }

@@ -1,8 +1,11 @@
 #include <openexr.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "image_formats.h"
 #include "output_file.h"
+
+static const char truncation_channel[] = "truncation_bound";
 
 struct exr_output {
     struct output_file file;
@@ -53,15 +56,27 @@ static bool write_header(struct exr_output *output, const struct image_metadata 
         !succeeded(exr_initialize_required_attr_simple(context, part, (int32_t)output->image->width,
                                                        (int32_t)output->image->height, EXR_COMPRESSION_ZIP)))
         return false;
-    for (const char *channel = "BGR"; *channel; channel++) {
-        const char name[2] = {*channel, '\0'};
-        if (!succeeded(exr_add_channel(context, part, name, EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LINEAR, 1, 1)))
+    const char *const channels[] = {"B", "G", "R", truncation_channel};
+    for (int c = 0; c < (output->image->truncation ? 4 : 3); ++c)
+        if (!succeeded(
+                exr_add_channel(context, part, channels[c], EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LINEAR, 1, 1)))
             return false;
-    }
     return set_text(context, "scene", metadata->scene) && set_text(context, "device", metadata->device) &&
            set_text(context, "precision", metadata->precision) &&
            succeeded(exr_attr_set_int(context, part, "maxBounces", (int32_t)metadata->max_bounces)) &&
            succeeded(exr_write_header(context));
+}
+
+/* Tells where the channel's values lie from row y on. */
+static void point_to_channel(const struct image *image, int y, exr_coding_channel_info_t *channel)
+{
+    const char *name = channel->channel_name;
+    bool is_color = strcmp(name, truncation_channel) != 0;
+    size_t stride = is_color ? 3 : 1, offset = name[0] == 'G' ? 1 : name[0] == 'B' ? 2 : 0;
+    const float *values = is_color ? image->rgb + offset : image->truncation;
+    channel->encode_from_ptr = (const uint8_t *)(values + (size_t)y * image->width * stride);
+    channel->user_pixel_stride = (int32_t)(stride * sizeof(float));
+    channel->user_line_stride = (int32_t)(image->width * stride * sizeof(float));
 }
 
 /* Writes the chunk of rows that starts at y. */
@@ -78,15 +93,8 @@ static bool write_chunk(struct exr_output *output, int y)
                          : exr_encoding_update(output->context, 0, &chunk, pipeline)))
         return false;
 
-    size_t row_channels = (size_t)output->image->width * 3;
-    const float *rows = output->image->rgb + (size_t)y * row_channels;
-    for (int c = 0; c < pipeline->channel_count; c++) {
-        exr_coding_channel_info_t *channel = &pipeline->channels[c];
-        size_t offset = channel->channel_name[0] == 'R' ? 0 : channel->channel_name[0] == 'G' ? 1 : 2;
-        channel->encode_from_ptr = (const uint8_t *)(rows + offset);
-        channel->user_pixel_stride = 3 * (int32_t)sizeof(float);
-        channel->user_line_stride = (int32_t)(row_channels * sizeof(float));
-    }
+    for (int c = 0; c < pipeline->channel_count; c++)
+        point_to_channel(output->image, y, &pipeline->channels[c]);
     if (first && !succeeded(exr_encoding_choose_default_routines(output->context, 0, pipeline)))
         return false;
     return succeeded(exr_encoding_run(output->context, 0, pipeline));

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "truncation.h"
 #include "vector.h"
 
 static const double pi = 3.14159265358979323846;
@@ -371,6 +372,8 @@ enum status pack_scene(const struct scene *scene, const struct picture_settings 
         status = pack_contents(&packing);
     else
         log_error("%s: no memory for %zu objects", scene->path, scene->object_count);
+    if (status == STATUS_DONE)
+        truncation_pack(packed, settings->has_max_error ? settings->max_error : -1);
     free(packing.sphere_sources);
     free(packing.plane_sources);
     if (status != STATUS_DONE)

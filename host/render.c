@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "statistics.h"
+#include "truncation.h"
 
 const char *precision_name(enum precision precision)
 {
@@ -59,7 +60,12 @@ static enum status render_output(struct vulkan_context *context, const struct re
     struct tracer *tracer = NULL;
     struct progress progress;
     double unused_ms;
-    progress_start(&progress, output == OUTPUT_RAYS ? "counting rays" : "path signatures",
+    static const char *const tasks[] = {
+        [OUTPUT_RAYS] = "counting rays",
+        [OUTPUT_SIGNATURE] = "path signatures",
+        [OUTPUT_TRUNCATION] = "untraced rays",
+    };
+    progress_start(&progress, tasks[output],
                    (uint64_t)plan->window.width * plan->window.height, plan->quiet);
     enum status status = image_create(plan->window.width, plan->window.height, image);
     if (status == STATUS_DONE)
@@ -119,6 +125,20 @@ enum status signatures_on_device(struct vulkan_context *context, const struct re
     return *signatures ? STATUS_DONE : STATUS_UNABLE;
 }
 
+static enum status bound_truncation(struct vulkan_context *context, const struct render_plan *plan,
+                                    struct image *image)
+{
+    struct image charges;
+    enum status status = render_output(context, plan, OUTPUT_TRUNCATION, &charges);
+    if (status != STATUS_DONE)
+        return status;
+    image->truncation = allocate_pixels(&plan->window, sizeof *image->truncation);
+    for (size_t i = 0; image->truncation && i < (size_t)charges.width * charges.height; ++i)
+        image->truncation[i] = (float)truncation_bound(plan->scene, (double)charges.rgb[3 * i]);
+    image_destroy(&charges);
+    return image->truncation ? STATUS_DONE : STATUS_UNABLE;
+}
+
 enum status render_on_device(struct vulkan_context *context, const struct render_plan *plan,
                              struct rendering *rendering)
 {
@@ -136,11 +156,14 @@ enum status render_on_device(struct vulkan_context *context, const struct render
     rendering->setup_ms = clock_ms() - start;
     status = render_repeatedly(render_once_on_device, tracer, plan, rendering);
     tracer_destroy(&tracer);
-    if (status == STATUS_DONE && plan->count_rays) {
+    if (status != STATUS_DONE)
+        return status;
+    if (plan->count_rays)
         status = count_rays(context, plan, &rendering->rays);
-        if (status != STATUS_DONE)
-            image_destroy(&rendering->image);
-    }
+    if (status == STATUS_DONE && plan->bound_truncation)
+        status = bound_truncation(context, plan, &rendering->image);
+    if (status != STATUS_DONE)
+        image_destroy(&rendering->image);
     return status;
 }
 
@@ -149,46 +172,69 @@ static int thread_count(const struct render_plan *plan)
     return plan->threads ? (int)plan->threads : (int)sysconf(_SC_NPROCESSORS_ONLN);
 }
 
+static void trace_band(const struct render_plan *plan, struct reference_window band,
+                       struct reference_picture *picture)
+{
+    int threads = thread_count(plan);
+    switch (plan->precision) {
+    case PRECISION_FLOAT:
+        reference_render_float(plan->scene, band, threads, picture);
+        break;
+    case PRECISION_DOUBLE:
+        reference_render_double(plan->scene, band, threads, picture);
+        break;
+    case PRECISION_QUAD:
+        reference_render_quad(plan->scene, band, threads, picture);
+        break;
+    }
+}
+
+static void copy_band(const struct render_plan *plan, struct reference_window band,
+                      const struct reference_picture *picture, struct image *image)
+{
+    size_t first = (size_t)(band.y - (int)plan->window.y) * image->width;
+    size_t pixels = (size_t)band.width * (size_t)band.height;
+    for (size_t i = 0; i < 3 * pixels; ++i)
+        image->rgb[3 * first + i] = (float)picture->rgb[i];
+    if (image->rgb64)
+        memcpy(image->rgb64 + 3 * first, picture->rgb, 3 * pixels * sizeof *picture->rgb);
+    for (size_t i = 0; image->truncation && i < pixels; ++i)
+        image->truncation[first + i] = (float)truncation_bound(plan->scene, picture->charges[i]);
+}
+
 /* Renders in bands of some rows, so that Ctrl-C is heard. */
 static enum status render_once_on_cpu(void *renderer, const struct render_plan *plan, struct image *image,
                                       struct progress *progress, double *milliseconds)
 {
     struct reference_rays *rays = renderer;
     const struct window *window = &plan->window;
-    int threads = thread_count(plan);
-    unsigned band_height = 65536 / window->width + (unsigned)threads;
-    double *band = calloc((size_t)window->width * band_height * 3, sizeof *band);
-    if (!band) {
+    unsigned band_height = 65536 / window->width + (unsigned)thread_count(plan);
+    size_t band_pixels = (size_t)window->width * band_height;
+    double *values = calloc(band_pixels * 4, sizeof *values);
+    if (plan->bound_truncation && !image->truncation)
+        image->truncation = allocate_pixels(window, sizeof *image->truncation);
+    if (!values || (plan->bound_truncation && !image->truncation)) {
         log_error("no memory for %u rows of %u pixels", band_height, window->width);
+        free(values);
         return STATUS_UNABLE;
     }
-    *rays = (struct reference_rays){0};
+    struct reference_picture picture = {
+        .rgb = values,
+        .charges = plan->bound_truncation ? values + 3 * band_pixels : NULL,
+    };
     *milliseconds = 0;
     for (unsigned y = 0; y < window->height && !interrupt_requested(); y += band_height) {
         unsigned height = window->height - y < band_height ? window->height - y : band_height;
-        struct reference_window part = {(int)window->x, (int)(window->y + y), (int)window->width,
+        struct reference_window band = {(int)window->x, (int)(window->y + y), (int)window->width,
                                         (int)height};
         double start = clock_ms();
-        switch (plan->precision) {
-        case PRECISION_FLOAT:
-            reference_render_float(plan->scene, part, threads, band, NULL, rays);
-            break;
-        case PRECISION_DOUBLE:
-            reference_render_double(plan->scene, part, threads, band, NULL, rays);
-            break;
-        case PRECISION_QUAD:
-            reference_render_quad(plan->scene, part, threads, band, NULL, rays);
-            break;
-        }
+        trace_band(plan, band, &picture);
         *milliseconds += clock_ms() - start;
-        size_t values = (size_t)window->width * height * 3;
-        for (size_t i = 0; i < values; ++i)
-            image->rgb[(size_t)y * window->width * 3 + i] = (float)band[i];
-        if (image->rgb64)
-            memcpy(image->rgb64 + (size_t)y * window->width * 3, band, values * sizeof *band);
+        copy_band(plan, band, &picture, image);
         progress_advance(progress, (uint64_t)window->width * height);
     }
-    free(band);
+    *rays = picture.rays;
+    free(values);
     return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_DONE;
 }
 
@@ -231,16 +277,18 @@ enum status explain_on_cpu(const struct render_plan *plan, enum precision precis
 enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatures)
 {
     const struct window *window = &plan->window;
-    struct reference_rays rays = {0};
-    double *rgb = allocate_pixels(window, 3 * sizeof *rgb);
-    *signatures = allocate_pixels(window, sizeof **signatures);
-    if (rgb && *signatures)
+    struct reference_picture picture = {
+        .rgb = allocate_pixels(window, 3 * sizeof(double)),
+        .signatures = *signatures = allocate_pixels(window, sizeof **signatures),
+    };
+    bool enough = picture.rgb && picture.signatures;
+    if (enough)
         reference_render_float(plan->scene,
                                (struct reference_window){(int)window->x, (int)window->y, (int)window->width,
                                                          (int)window->height},
-                               thread_count(plan), rgb, *signatures, &rays);
-    free(rgb);
-    if (rgb && *signatures)
+                               thread_count(plan), &picture);
+    free(picture.rgb);
+    if (enough)
         return STATUS_DONE;
     free(*signatures);
     *signatures = NULL;

@@ -20,6 +20,7 @@ struct render_plan {
     bool fast;                /* on a device */
     unsigned repeat;          /* warm renderings after the first */
     bool count_rays;
+    bool bound_truncation; /* fill the image's truncation */
     bool quiet;
 };
 

@@ -36,6 +36,7 @@ struct specialization specialize(const struct packed_scene *scene, const struct 
         .one_roughness = VK_TRUE,
         .rows = shape->rows,
         .output = output,
+        .prunes = scene->view.truncation.y >= 0,
     };
     int last_sphere_rank = -1;
     for (int i = 0; i < scene->sphere_count; ++i) {

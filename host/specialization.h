@@ -21,6 +21,7 @@ struct specialization {
     uint32_t plane_axes, rows, entered_spheres;
     int32_t output;                              /* OUTPUT_ */
     VkBool32 corrected_division, corrected_root; /* see probe.h */
+    VkBool32 prunes;
 };
 
 /* Finds what the scene needs, so that the pipeline holds nothing else. */

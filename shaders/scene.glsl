@@ -25,6 +25,8 @@ layout(constant_id = 21) const int OUTPUT = OUTPUT_RADIANCE; // what a pixel's t
 layout(constant_id = 22) const bool CORRECTED_DIVISION = true; // with CORRECTED: the device's own / is inexact
 layout(constant_id = 23) const bool CORRECTED_ROOT = true;     // with CORRECTED: the device's own sqrt is
 
+layout(constant_id = 24) const bool PRUNES = false; // rays are left out within the view's allowance
+
 const bool SECONDARY_RAYS = (MIRRORS || GLASS) && MAX_BOUNCES > 0;
 
 #ifdef SCENE_IN_STORAGE

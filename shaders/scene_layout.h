@@ -40,10 +40,16 @@ typedef struct PackedSurface PackedSurface;
 #define SMALLEST_WEIGHT 8.077935669463161e-28 /* 2^-90 */
 
 /* What a pixel's three values are: radiance; the numbers of primary, secondary and shadow rays; or the path
- * signature, a hash of every decision of the ray tree, as its lower and upper 16 bits and 0. */
+ * signature, a hash of every decision of the ray tree, as its lower and upper 16 bits and 0; or what rays that
+ * were not traced are charged. */
 #define OUTPUT_RADIANCE 0
 #define OUTPUT_RAYS 1
 #define OUTPUT_SIGNATURE 2
+#define OUTPUT_TRUNCATION 3 /* the charges of the pixel's samples, summed, 0 and 0 */
+
+/* A ray that is not traced is charged the most that it could have brought, its weight times the bound on
+ * radiance. Charges are summed to nearest; this factor after each makes them sums rounded up. */
+#define ROUND_UP 1.0000002384185791015625 /* 1 + 2^-22 */
 
 struct PackedSurface {
     /* matte: albedo / pi in xyz, Oren-Nayar's A in w.
@@ -87,6 +93,9 @@ struct PackedView {
     LAYOUT_VEC4 half_pixel_down;
     LAYOUT_VEC4 background; /* radiance */
     LAYOUT_VEC4 matte;      /* Oren-Nayar's A in x and B in y, where all matte surfaces share them */
+    /* x: no ray brings more radiance than this; y: what a sample may be charged for rays that are left out,
+     * negative where all are traced. */
+    LAYOUT_VEC4 truncation;
 };
 
 #endif

@@ -21,11 +21,15 @@ layout(push_constant) uniform TileBlock {
 uvec2 tile_origin, tile_size, image_size;
 uint first_sample, end_sample;
 
+const bool CHARGES = PRUNES || OUTPUT == OUTPUT_TRUNCATION;
+const bool LIGHTS_TELL_BRANCHES = GLASS && QUAD_LIGHTS > 0;
+
 // A ray, what it counts for in the pixel, and the bounces it has behind it.
 struct Path {
     Ray ray;
     real weight;
     int bounces;
+    uint branch; // in the binary tree of splits, 0 the root, children of i: 2 i + 1 refracted, 2 i + 2 reflected
 };
 
 // The reflections still to be traced: at most one for every bounce count.
@@ -34,6 +38,7 @@ const bool STACK_IN_REGISTERS = STACK_ROOM <= 8; // selects cost less than index
 real3 stack_origin[STACK_ROOM], stack_direction[STACK_ROOM];
 real stack_weight[STACK_ROOM];
 int stack_state[STACK_ROOM]; // (surface * 2 + inward) * 1024 + bounces
+uint stack_branch[LIGHTS_TELL_BRANCHES ? STACK_ROOM : 1];
 
 void store_pending(int i, Path path)
 {
@@ -41,6 +46,8 @@ void store_pending(int i, Path path)
     stack_direction[i] = path.ray.direction;
     stack_weight[i] = path.weight;
     stack_state[i] = (path.ray.surface << 1 | int(path.ray.inward)) << 10 | path.bounces;
+    if (LIGHTS_TELL_BRANCHES)
+        stack_branch[i] = path.branch;
 }
 
 void load_pending(int i, inout Path path)
@@ -51,6 +58,8 @@ void load_pending(int i, inout Path path)
     path.ray.surface = stack_state[i] >> 11;
     path.ray.inward = (stack_state[i] >> 10 & 1) != 0;
     path.bounces = stack_state[i] & 1023;
+    if (LIGHTS_TELL_BRANCHES)
+        path.branch = stack_branch[i];
 }
 
 void push(Path path, inout int pending)
@@ -78,12 +87,33 @@ void pop(inout Path path, inout int pending)
 }
 
 struct Pixel {
-    real3 radiance;
+    real3 radiance; // sum over the samples
+    real3 leaves, rounding; // of the sample: the rounded sum of what its rays see, and what rounding took from it
+    real charge; // the sample's, for rays that are not traced
+    real charges; // of the samples before
     uint seed;
     uint sample_index;
-    uint shaded; // matte points so far: each draws light samples of its own
     Tally tally;
 };
+
+void charge(inout Pixel pixel, real weight)
+{
+    exact real sum = (pixel.charge + weight * real(hoisted_view.truncation.x)) * real(ROUND_UP);
+    pixel.charge = sum;
+}
+
+// Whether a ray of this weight is to be traced; otherwise it has been charged.
+bool is_traced(inout Pixel pixel, real weight)
+{
+    bool traced = weight > real(SMALLEST_WEIGHT);
+    if (CHARGES) {
+        real before = pixel.charge;
+        charge(pixel, weight);
+        traced = traced && !(PRUNES && pixel.charge <= real(hoisted_view.truncation.y));
+        pixel.charge = traced ? before : pixel.charge;
+    }
+    return traced;
+}
 
 Path primary_path(uvec2 position, real sample_x, real sample_y)
 {
@@ -98,23 +128,24 @@ Path primary_path(uvec2 position, real sample_x, real sample_y)
     path.ray.inward = false;
     path.weight = real(1);
     path.bounces = 0;
+    path.branch = 0u;
     return path;
 }
 
-real3 matte_radiance(inout Pixel pixel, Ray ray, Hit hit, real3 point, real3 normal)
+// Each branch draws light samples of its own, the same whichever others are traced.
+real3 matte_radiance(inout Pixel pixel, Path path, Hit hit, real3 point, real3 normal)
 {
-    exact real cos_out = -dot3(normal, ray.direction);
+    exact real cos_out = -dot3(normal, path.ray.direction);
     Matte matte;
     matte.point = point;
     matte.normal = normal;
-    matte.ray_direction = ray.direction;
+    matte.ray_direction = path.ray.direction;
     matte.cos_out = cos_out;
     matte.surface = hit.surface;
     matte.inward = hit.leaving;
     matte.a = real(ONE_ROUGHNESS ? hoisted_view.matte.x : hit.parameters.w);
     matte.b = real(ONE_ROUGHNESS ? hoisted_view.matte.y : hit.oren_nayar_b);
-    uint seed = hash(pixel.seed + pixel.shaded * uint(QUAD_LIGHTS));
-    ++pixel.shaded;
+    uint seed = hash(pixel.seed + path.branch * uint(QUAD_LIGHTS));
     exact real3 radiance =
         real3(hit.parameters.xyz) * direct_light(matte, pixel.sample_index, seed, pixel.tally);
     return radiance;
@@ -124,7 +155,7 @@ real3 matte_radiance(inout Pixel pixel, Ray ray, Hit hit, real3 point, real3 nor
 // stack and the refraction goes on. False where nothing goes on.
 // (Members are assigned one by one, because glslang 12 crashes where `precise` has to follow a value through a
 // struct constructor in a loop.)
-bool bounce(inout Path path, inout int pending, inout Tally tally, Hit hit, real3 point, real3 normal)
+bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real3 point, real3 normal)
 {
     exact real cos_in = -dot3(normal, path.ray.direction);
     cos_in = cos_in > real(0) ? cos_in : real(0);
@@ -140,37 +171,54 @@ bool bounce(inout Path path, inout int pending, inout Tally tally, Hit hit, real
     real eta = real(hit.leaving ? hit.parameters.z : hit.parameters.x);
     real kappa = real(hit.leaving ? hit.parameters.w : hit.parameters.y);
     Refraction refraction = refracted(incident, normal, cos_in, eta, kappa);
-    note(tally, uint(refraction.total));
-    exact real reflected_weight = refraction.total ? path.weight : path.weight * refraction.reflectance;
+    note(pixel.tally, uint(refraction.total));
+    if (refraction.total)
+        return true;
+    exact real reflected_weight = path.weight * refraction.reflectance;
     exact real refracted_weight = path.weight * (real(1) - refraction.reflectance);
-    bool reflects = reflected_weight > real(SMALLEST_WEIGHT);
-    bool refracts = !refraction.total && refracted_weight > real(SMALLEST_WEIGHT);
+    bool reflects = is_traced(pixel, reflected_weight);
+    bool refracts = is_traced(pixel, refracted_weight);
     path.weight = reflected_weight;
+    path.branch = 2u * path.branch + 2u;
     if (refracts) {
         if (reflects)
             push(path, pending);
         path.ray.direction = refraction.direction;
         path.ray.inward = !hit.leaving;
         path.weight = refracted_weight;
+        --path.branch;
     }
     return reflects || refracts;
 }
 
-// Adds what the path's last ray sees to the pixel.
+// Adds what the path's last ray sees to the sample. The exact rounding error of each sum is kept (Knuth, TAOCP 2,
+// 4.2.2), so that leaving out rays changes the picture by what they would have brought, and not by how the others
+// round.
 void add_leaf(inout Pixel pixel, Path path, Hit hit, real3 point, real3 normal)
 {
     exact real3 seen = real3(hoisted_view.background.xyz);
     if (hit.surface >= 0) {
         exact real3 black = real3(0);
-        seen = hit.kind == KIND_MATTE ? matte_radiance(pixel, path.ray, hit, point, normal) : black;
+        seen = hit.kind == KIND_MATTE ? matte_radiance(pixel, path, hit, point, normal) : black;
     }
-    exact real3 radiance = pixel.radiance + path.weight * seen;
-    pixel.radiance = radiance;
+    exact real3 leaf = path.weight * seen;
+    if (!GLASS) { // the sample's only leaf
+        pixel.leaves = leaf;
+        return;
+    }
+    exact real3 sum = pixel.leaves + leaf;
+    exact real3 added = sum - pixel.leaves;
+    exact real3 rounding = pixel.rounding + ((pixel.leaves - (sum - added)) + (leaf - added));
+    pixel.leaves = sum;
+    pixel.rounding = rounding;
 }
 
 // One turn of the loop traces one ray of the tree.
 void trace(inout Pixel pixel, Path path)
 {
+    pixel.leaves = real3(0);
+    pixel.rounding = real3(0);
+    pixel.charge = real(0);
     int pending = 0;
     bool goes_on = true;
     while (goes_on) {
@@ -179,9 +227,11 @@ void trace(inout Pixel pixel, Path path)
         real3 point, normal;
         hit_point(path.ray, hit, point, normal);
         goes_on = false;
-        if (SECONDARY_RAYS && hit.surface >= 0 && hit.kind != KIND_MATTE) {
-            if (path.bounces < MAX_BOUNCES)
-                goes_on = bounce(path, pending, pixel.tally, hit, point, normal);
+        if ((MIRRORS || GLASS) && hit.surface >= 0 && hit.kind != KIND_MATTE) {
+            if (SECONDARY_RAYS && path.bounces < MAX_BOUNCES)
+                goes_on = bounce(path, pending, pixel, hit, point, normal);
+            else if (CHARGES)
+                charge(pixel, path.weight);
         } else {
             add_leaf(pixel, path, hit, point, normal);
         }
@@ -193,6 +243,10 @@ void trace(inout Pixel pixel, Path path)
             ++pixel.tally.secondary_rays;
     }
     loop_cut = loop_cut || goes_on;
+    exact real3 radiance = pixel.radiance + (pixel.leaves + pixel.rounding);
+    pixel.radiance = radiance;
+    exact real charges = (pixel.charges + pixel.charge) * real(ROUND_UP);
+    pixel.charges = charges;
 }
 
 // Takes up what the dispatches of the samples before have left.
@@ -201,6 +255,8 @@ void resume(inout Pixel pixel, real3 left)
     loop_cut = left.x < real(0);
     if (OUTPUT == OUTPUT_RADIANCE)
         pixel.radiance = left;
+    if (OUTPUT == OUTPUT_TRUNCATION)
+        pixel.charges = left.x;
     pixel.tally.secondary_rays = uint(left.y);
     pixel.tally.shadow_rays = uint(left.z);
     if (OUTPUT == OUTPUT_SIGNATURE)
@@ -211,7 +267,7 @@ void resume(inout Pixel pixel, real3 left)
 real3 render_pixel(uvec2 position, uint base)
 {
     loop_cut = false;
-    Pixel pixel = Pixel(real3(0), 0u, 0u, 0u, Tally(0u, 0u, 0u));
+    Pixel pixel = Pixel(real3(0), real3(0), real3(0), real(0), real(0), 0u, 0u, Tally(0u, 0u, 0u));
     if (SAMPLES > 1 || QUAD_LIGHTS > 0)
         pixel.seed = hash(hash(position.x) + position.y);
     if (SAMPLES == 1) {
@@ -223,7 +279,6 @@ real3 render_pixel(uvec2 position, uint base)
         uint k = first_sample;
         for (; k < end_sample; ++k) {
             pixel.sample_index = k;
-            pixel.shaded = 0u;
             real x, y;
             sequence_point(sequence, k, x, y);
             trace(pixel, primary_path(position, x, y));
@@ -236,6 +291,8 @@ real3 render_pixel(uvec2 position, uint base)
         return real3(real(SAMPLES), real(pixel.tally.secondary_rays), real(pixel.tally.shadow_rays));
     if (OUTPUT == OUTPUT_SIGNATURE)
         return real3(real(pixel.tally.signature & 0xffffu), real(pixel.tally.signature >> 16), real(0));
+    if (OUTPUT == OUTPUT_TRUNCATION)
+        return real3(pixel.charges, real(0), real(0));
     if (end_sample < uint(SAMPLES))
         return pixel.radiance;
     if (SAMPLES > 1) {

@@ -29,7 +29,8 @@ static struct packed_scene pack(const char *name)
 {
     struct scene scene = test_read(name);
     struct packed_scene packed;
-    const struct picture_settings settings = {WIDTH, HEIGHT, 5, 2, 3};
+    const struct picture_settings settings = {
+        .width = WIDTH, .height = HEIGHT, .max_bounces = 5, .samples = 2, .light_samples = 3};
     assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
     scene_destroy(&scene);
     return packed;

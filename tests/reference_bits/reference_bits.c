@@ -29,8 +29,8 @@ static void *read_items(FILE *file, size_t size, int count)
     return items;
 }
 
-typedef void render_function(const struct packed_scene *, struct reference_window, int, double *, uint32_t *,
-                             struct reference_rays *);
+typedef void render_function(const struct packed_scene *, struct reference_window, int,
+                             struct reference_picture *);
 typedef void explain_function(const struct packed_scene *, struct reference_window, int,
                               struct reference_explanation *);
 
@@ -38,18 +38,22 @@ static void print_picture(const char *name, const char *precision, render_functi
                           const struct packed_scene *scene)
 {
     size_t pixels = (size_t)scene->width * (size_t)scene->height;
-    double *rgb = calloc(3 * pixels, sizeof *rgb);
-    uint32_t *signatures = calloc(pixels, sizeof *signatures);
-    struct reference_rays rays = {0};
-    if (!rgb || !signatures)
+    struct reference_picture picture = {
+        .rgb = calloc(3 * pixels, sizeof *picture.rgb),
+        .signatures = calloc(pixels, sizeof *picture.signatures),
+        .charges = calloc(pixels, sizeof *picture.charges),
+    };
+    if (!picture.rgb || !picture.signatures || !picture.charges)
         exit(EXIT_FAILURE);
-    render(scene, (struct reference_window){0, 0, scene->width, scene->height}, 2, rgb, signatures, &rays);
-    uint64_t hash = hash_bytes(hash_start, rgb, 3 * pixels * sizeof *rgb);
-    hash = hash_bytes(hash, signatures, pixels * sizeof *signatures);
-    hash = hash_bytes(hash, &rays, sizeof rays);
+    render(scene, (struct reference_window){0, 0, scene->width, scene->height}, 2, &picture);
+    uint64_t hash = hash_bytes(hash_start, picture.rgb, 3 * pixels * sizeof *picture.rgb);
+    hash = hash_bytes(hash, picture.signatures, pixels * sizeof *picture.signatures);
+    hash = hash_bytes(hash, picture.charges, pixels * sizeof *picture.charges);
+    hash = hash_bytes(hash, &picture.rays, sizeof picture.rays);
     printf("%s %s %016" PRIx64 "\n", name, precision, hash);
-    free(signatures);
-    free(rgb);
+    free(picture.charges);
+    free(picture.signatures);
+    free(picture.rgb);
 }
 
 /* x86-64 and aarch64 make NaN of opposite signs. */

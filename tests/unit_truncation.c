@@ -1,0 +1,146 @@
+/* What --max-error promises, and truncation_bound: no pixel is farther from the picture with 64 bounces. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#include <glob.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "test_render.h"
+#include "truncation.h"
+
+static const double max_errors[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
+enum { MAX_ERRORS = sizeof max_errors / sizeof *max_errors, ALL_BOUNCES = 64 };
+
+static struct packed_scene pack(const struct scene *scene, struct picture_settings settings)
+{
+    struct packed_scene packed;
+    settings.width = 120;
+    settings.height = 80;
+    settings.light_samples = 4;
+    assert_int_equal(pack_scene(scene, &settings, &packed), STATUS_DONE);
+    return packed;
+}
+
+static struct rendering render(const struct packed_scene *packed, bool on_device)
+{
+    struct rendering rendering;
+    const struct render_plan plan = {
+        .scene = packed,
+        .window = {0, 0, (unsigned)packed->width, (unsigned)packed->height},
+        .count_rays = true,
+        .bound_truncation = true,
+        .quiet = true,
+    };
+    assert_int_equal(on_device ? render_on_device(test_context, &plan, &rendering)
+                               : render_on_cpu(&plan, &rendering),
+                     STATUS_DONE);
+    return rendering;
+}
+
+/* The largest difference, which in no pixel is above the bound that the picture comes with. */
+static double check_bounds(const char *name, const struct image *image, const struct image *all)
+{
+    double largest = 0;
+    for (size_t i = 0; i < (size_t)image->width * image->height * 3; ++i) {
+        double error = fabs((double)image->rgb[i] - (double)all->rgb[i]);
+        largest = fmax(largest, error);
+        if (!(error <= (double)image->truncation[i / 3])) {
+            print_error("%s: pixel %zu is off by %g, its bound is %g\n", name, i / 3, error,
+                        (double)image->truncation[i / 3]);
+            fail();
+        }
+    }
+    return largest;
+}
+
+static void check_same(const char *name, const struct rendering *device, const struct rendering *reference)
+{
+    size_t pixels = (size_t)device->image.width * device->image.height;
+    if (memcmp(device->image.rgb, reference->image.rgb, pixels * 3 * sizeof(float)) != 0 ||
+        memcmp(device->image.truncation, reference->image.truncation, pixels * sizeof(float)) != 0) {
+        print_error("%s: device and reference differ\n", name);
+        fail();
+    }
+    assert_int_equal(device->rays.secondary, reference->rays.secondary);
+}
+
+static void check_max_errors(const char *name, const struct scene *scene, struct picture_settings settings,
+                             const struct rendering *all)
+{
+    uint64_t fewest = all->rays.secondary;
+    for (int i = MAX_ERRORS - 1; i >= 0; --i) {
+        settings.has_max_error = true;
+        settings.max_error = max_errors[i];
+        struct packed_scene packed = pack(scene, settings);
+        struct rendering reference = render(&packed, false);
+        double error = check_bounds(name, &reference.image, &all->image);
+        if (!(error <= max_errors[i])) {
+            print_error("%s: off by %g with max_error %g\n", name, error, max_errors[i]);
+            fail();
+        }
+        assert_true(reference.rays.secondary <= fewest);
+        fewest = reference.rays.secondary;
+        if (i % 2 == 0) {
+            struct rendering device = render(&packed, true);
+            check_same(name, &device, &reference);
+            image_destroy(&device.image);
+        }
+        image_destroy(&reference.image);
+        pack_destroy(&packed);
+    }
+}
+
+static void check_scene(const char *path, unsigned samples)
+{
+    struct scene scene;
+    assert_int_equal(scene_read(path, &scene), STATUS_DONE);
+    struct picture_settings settings = test_settings(&scene);
+    settings.samples = samples;
+    struct packed_scene as_written = pack(&scene, settings);
+    settings.max_bounces = ALL_BOUNCES;
+    struct packed_scene deep = pack(&scene, settings);
+    struct rendering all = render(&deep, false), device = render(&as_written, true),
+                     reference = render(&as_written, false);
+    check_same(path, &device, &reference);
+    check_bounds(path, &device.image, &all.image);
+    check_max_errors(path, &scene, settings, &all);
+    image_destroy(&all.image);
+    image_destroy(&device.image);
+    image_destroy(&reference.image);
+    pack_destroy(&as_written);
+    pack_destroy(&deep);
+    scene_destroy(&scene);
+}
+
+static void shipped_scenes(void **state)
+{
+    (void)state;
+    glob_t paths;
+    assert_int_equal(glob(SOURCE_DIR "/scenes/figure_*.yaml", 0, NULL, &paths), 0);
+    assert_int_equal(glob(SOURCE_DIR "/scenes/hard/*.yaml", GLOB_APPEND, NULL, &paths), 0);
+    for (size_t i = 0; i < paths.gl_pathc; ++i)
+        check_scene(paths.gl_pathv[i], 1);
+    globfree(&paths);
+}
+
+/* The samples of a pixel keep the promise together, whatever order their sums are rounded in. */
+static void several_samples(void **state)
+{
+    (void)state;
+    check_scene(SOURCE_DIR "/scenes/hard/diamond.yaml", 3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shipped_scenes),
+        cmocka_unit_test(several_samples),
+    };
+    return cmocka_run_group_tests(tests, test_open_device, test_close_device);
+}
