@@ -51,10 +51,10 @@ static void report_truncation(const struct options *options, const struct job *j
         largest = image->truncation[i] > largest ? image->truncation[i] : largest;
     }
     if (beyond > 0)
-        log_warning("%s: %zu of %zu pixels may be off by more than --max-error %g, by up to %g: rays end after "
-                    "%u bounces; see --max-bounces",
-                    options->scenes[0], beyond, pixels, options->max_error, (double)largest,
-                    job->max_bounces);
+        log_warning(
+            "%s: %zu of %zu pixels may be off by more than --max-error %g, by up to %g: rays end after "
+            "%u bounces; see --max-bounces",
+            options->scenes[0], beyond, pixels, options->max_error, (double)largest, job->max_bounces);
 }
 
 static enum status write_stats(const struct options *options, const struct job *job,

@@ -10,7 +10,8 @@ struct image {
     unsigned width, height;
     float *rgb;
     double *rgb64; /* the same before rounding to float, where that is wanted; otherwise NULL */
-    float *truncation; /* how far a pixel is from the picture with all bounces at most, where wanted; or NULL */
+    float
+        *truncation; /* how far a pixel is from the picture with all bounces at most, where wanted; or NULL */
 };
 
 /* A black image; STATUS_UNABLE (reported) if the machine's memory cannot hold it. */

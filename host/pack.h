@@ -9,7 +9,8 @@ struct picture_settings {
     unsigned width, height; /* pixels */
     unsigned max_bounces, samples, light_samples;
     bool has_max_error;
-    double max_error; /* linear radiance, of a pixel's channel: rays that stay below it together are not traced */
+    double max_error; /* linear radiance, of a pixel's channel: rays that stay below it together are not
+                         traced */
 };
 
 /* Rounds the scene to the single-precision form that device and reference read, in scene units, and settles

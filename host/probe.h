@@ -5,8 +5,8 @@
 
 #include "vulkan_context.h"
 
-/* Finds out what arithmetic on the context's device does, by some sixty thousand operations on numbers that are
- * hard to round, compared with the processor's. Fills context->arithmetic; later calls change nothing.
+/* Finds out what arithmetic on the context's device does, by some sixty thousand operations on numbers that
+ * are hard to round, compared with the processor's. Fills context->arithmetic; later calls change nothing.
  *
  * Only normal numbers and zeros count, as operands, results and on the way: the tracer depends on no others.
  * Failures, of Vulkan only, are reported. */

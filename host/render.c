@@ -65,8 +65,7 @@ static enum status render_output(struct vulkan_context *context, const struct re
         [OUTPUT_SIGNATURE] = "path signatures",
         [OUTPUT_TRUNCATION] = "untraced rays",
     };
-    progress_start(&progress, tasks[output],
-                   (uint64_t)plan->window.width * plan->window.height, plan->quiet);
+    progress_start(&progress, tasks[output], (uint64_t)plan->window.width * plan->window.height, plan->quiet);
     enum status status = image_create(plan->window.width, plan->window.height, image);
     if (status == STATUS_DONE)
         status = tracer_create(context, plan->scene,

@@ -22,6 +22,8 @@ struct specialization {
     int32_t output;                              /* OUTPUT_ */
     VkBool32 corrected_division, corrected_root; /* see probe.h */
     VkBool32 prunes;
+    uint32_t turn_limit;
+    VkBool32 patient;
 };
 
 /* Finds what the scene needs, so that the pipeline holds nothing else. */

@@ -56,8 +56,9 @@ static enum status create_picture(struct tracer *tracer)
         (VkMemoryPropertyFlags[]){VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | readable,
                                   VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0},
         &tracer->picture);
-    tracer->bindings[PICTURE] =
-        (VkDescriptorBufferInfo){.buffer = tracer->picture.buffer, .range = VK_WHOLE_SIZE};
+    for (int i = PICTURE; i < BINDINGS; ++i) /* the saved ones are not used until the tracer is patient */
+        tracer->bindings[i] =
+            (VkDescriptorBufferInfo){.buffer = tracer->picture.buffer, .range = VK_WHOLE_SIZE};
     if (status != STATUS_DONE || (tracer->picture.properties & readable) == readable)
         return status;
     return vulkan_buffer_create(
@@ -80,12 +81,38 @@ enum status tracer_build_pipeline(struct tracer *tracer)
     struct specialization constants = specialize(tracer->packed, &tracer->shape, options->output);
     constants.corrected_division = !arithmetic->division_exact;
     constants.corrected_root = !arithmetic->root_exact;
+    /* lavapipe's limit is 65535; what is left is for loops of the driver's own making */
+    constants.turn_limit =
+        tracer->context->driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE ? 65000 : UINT32_MAX;
+    constants.patient = tracer->patient;
     double start = clock_ms();
     enum status status =
         vulkan_pipeline_create(tracer->context, code, tracer->pipeline_layout, (const uint32_t *)&constants,
                                sizeof constants / sizeof(uint32_t), &tracer->pipeline);
     log_info("pipeline built in %.1f ms", clock_ms() - start);
     return status;
+}
+
+static VkDescriptorType binding_type(const struct tracer *tracer, uint32_t binding)
+{
+    return binding >= PICTURE || (binding != VIEW && tracer->scene_in_storage)
+               ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+               : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+}
+
+static void write_bindings(const struct tracer *tracer)
+{
+    for (uint32_t i = 0; i < BINDINGS; ++i)
+        vkUpdateDescriptorSets(tracer->context->device, 1,
+                               &(VkWriteDescriptorSet){
+                                   .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                   .dstSet = tracer->set,
+                                   .dstBinding = i,
+                                   .descriptorCount = 1,
+                                   .descriptorType = binding_type(tracer, i),
+                                   .pBufferInfo = &tracer->bindings[i],
+                               },
+                               0, NULL);
 }
 
 static enum status create_layout(struct tracer *tracer)
@@ -95,9 +122,7 @@ static enum status create_layout(struct tracer *tracer)
     for (uint32_t i = 0; i < BINDINGS; ++i)
         bindings[i] = (VkDescriptorSetLayoutBinding){
             .binding = i,
-            .descriptorType = i == PICTURE || (i != VIEW && tracer->scene_in_storage)
-                                  ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-                                  : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+            .descriptorType = binding_type(tracer, i),
             .descriptorCount = 1,
             .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT,
         };
@@ -135,21 +160,40 @@ static enum status create_layout(struct tracer *tracer)
                     .pSetLayouts = &tracer->set_layout,
                 },
                 &tracer->set);
-    for (uint32_t i = 0; i < BINDINGS; ++i)
-        vkUpdateDescriptorSets(device, 1,
-                               &(VkWriteDescriptorSet){
-                                   .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                   .dstSet = tracer->set,
-                                   .dstBinding = i,
-                                   .descriptorCount = 1,
-                                   .descriptorType = bindings[i].descriptorType,
-                                   .pBufferInfo = &tracer->bindings[i],
-                               },
-                               0, NULL);
+    write_bindings(tracer);
     return STATUS_DONE;
 
 error:
     return STATUS_UNABLE;
+}
+
+enum status tracer_become_patient(struct tracer *tracer)
+{
+    /* of SavedPixel and SavedPath in patience.glsl, in double; float takes less */
+    enum { SAVED_PIXEL_BYTES = 192, SAVED_PATH_BYTES = 64, MOST_BYTES = 1 << 26, MOST_PIXELS = 4096 };
+    unsigned stack_room = tracer->packed->max_bounces > 0 ? (unsigned)tracer->packed->max_bounces : 1;
+    unsigned pixels = MOST_BYTES / (SAVED_PATH_BYTES * stack_room);
+    pixels = pixels < MOST_PIXELS ? pixels : MOST_PIXELS;
+    tracer->patient = true;
+    tracer->tile_pixels = tracer->tile_pixels < pixels ? tracer->tile_pixels : pixels;
+    tracer->shape.rows = 1;
+    tracer->samples_per_dispatch = 1;
+    vkDestroyPipeline(tracer->context->device, tracer->pipeline, NULL);
+    tracer->pipeline = VK_NULL_HANDLE;
+    const VkMemoryPropertyFlags kinds[] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
+    enum status status =
+        vulkan_buffer_create(tracer->context, (VkDeviceSize)tracer->tile_pixels * SAVED_PIXEL_BYTES,
+                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, kinds, &tracer->saved_pixels);
+    if (status == STATUS_DONE)
+        status = vulkan_buffer_create(tracer->context,
+                                      (VkDeviceSize)tracer->tile_pixels * stack_room * SAVED_PATH_BYTES,
+                                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, kinds, &tracer->saved_stacks);
+    if (status != STATUS_DONE)
+        return status;
+    tracer->bindings[SAVED_PIXELS].buffer = tracer->saved_pixels.buffer;
+    tracer->bindings[SAVED_STACKS].buffer = tracer->saved_stacks.buffer;
+    write_bindings(tracer);
+    return tracer_build_pipeline(tracer);
 }
 
 static enum status create_commands(struct tracer *tracer)
@@ -262,6 +306,8 @@ void tracer_destroy(struct tracer **pointer)
     vkDestroyDescriptorPool(device, tracer->descriptor_pool, NULL);
     vkDestroyPipelineLayout(device, tracer->pipeline_layout, NULL);
     vkDestroyDescriptorSetLayout(device, tracer->set_layout, NULL);
+    vulkan_buffer_destroy(tracer->context, &tracer->saved_stacks);
+    vulkan_buffer_destroy(tracer->context, &tracer->saved_pixels);
     vulkan_buffer_destroy(tracer->context, &tracer->staging);
     vulkan_buffer_destroy(tracer->context, &tracer->picture);
     vulkan_buffer_destroy(tracer->context, &tracer->scene);

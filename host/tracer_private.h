@@ -7,19 +7,32 @@
 #include "tracer.h"
 #include "vulkan_buffer.h"
 
-enum { VIEW, SPHERES, PLANES, POINT_LIGHTS, QUAD_LIGHTS, SCENE_BINDINGS, PICTURE = SCENE_BINDINGS, BINDINGS };
+enum {
+    VIEW,
+    SPHERES,
+    PLANES,
+    POINT_LIGHTS,
+    QUAD_LIGHTS,
+    SCENE_BINDINGS,
+    PICTURE = SCENE_BINDINGS,
+    SAVED_PIXELS,
+    SAVED_STACKS,
+    BINDINGS,
+};
 
 enum { CHANNELS = 3 };
 
 struct tracer {
     struct vulkan_context *context;
     bool scene_in_storage, double_precision;
+    bool patient; /* ray trees may take several dispatches; see shaders/patience.glsl */
     const struct packed_scene *packed;
     struct tracer_options options;
     struct group_shape shape;
     unsigned tile_pixels, samples_per_dispatch;
     struct vulkan_buffer scene, picture;
-    struct vulkan_buffer staging; /* only where the host cannot read `picture` well */
+    struct vulkan_buffer saved_pixels, saved_stacks; /* once patient */
+    struct vulkan_buffer staging;                    /* only where the host cannot read `picture` well */
     VkDescriptorBufferInfo bindings[BINDINGS];
     VkDescriptorSetLayout set_layout;
     VkPipelineLayout pipeline_layout;
@@ -36,6 +49,7 @@ struct tracer {
 /* As in whitted.comp. */
 struct push_constants {
     uint32_t tile_x, tile_y, tile_width, tile_height, picture_width, picture_height, first_sample, end_sample;
+    uint32_t goes_on; /* with what the dispatch before has left of the sample */
 };
 
 /* Bytes. */
@@ -46,5 +60,8 @@ static inline size_t pixel_size(const struct tracer *tracer)
 
 /* Builds tracer->pipeline for the current shape; there is none yet. */
 enum status tracer_build_pipeline(struct tracer *tracer);
+
+/* From now on ray trees may take several dispatches: smaller tiles, another pipeline. */
+enum status tracer_become_patient(struct tracer *tracer);
 
 #endif

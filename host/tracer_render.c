@@ -14,13 +14,26 @@ static void record_barrier(VkCommandBuffer commands, VkPipelineStageFlags from, 
                          0, NULL, 0, NULL);
 }
 
-static enum status record_tile(struct tracer *tracer, struct window tile, uint32_t first_sample,
-                               uint32_t end_sample)
+/* What a dispatch does for each pixel of its tile. */
+struct portion {
+    uint32_t first_sample, end_sample;
+    bool goes_on; /* with what the dispatch before has left */
+};
+
+static enum status record_tile(struct tracer *tracer, struct window tile, struct portion portion)
 {
     const VkCommandBuffer commands = tracer->commands;
     const struct push_constants constants = {
-        tile.x,       tile.y,    tile.width, tile.height, tracer->picture_width, tracer->picture_height,
-        first_sample, end_sample};
+        tile.x,
+        tile.y,
+        tile.width,
+        tile.height,
+        tracer->picture_width,
+        tracer->picture_height,
+        portion.first_sample,
+        portion.end_sample,
+        portion.goes_on,
+    };
     VULKAN_CALL(vkBeginCommandBuffer, commands,
                 &(VkCommandBufferBeginInfo){
                     .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
@@ -63,12 +76,12 @@ error:
     return STATUS_UNABLE;
 }
 
-/* Adds the samples to the tile in the buffer that the host reads, and the device's time to *dispatch_ms. */
-static enum status dispatch_tile(struct tracer *tracer, struct window tile, uint32_t first_sample,
-                                 uint32_t end_sample, double *dispatch_ms)
+/* Adds the portion to the tile in the buffer that the host reads, and the device's time to *dispatch_ms. */
+static enum status dispatch_tile(struct tracer *tracer, struct window tile, struct portion portion,
+                                 double *dispatch_ms)
 {
     const VkDevice device = tracer->context->device;
-    enum status status = record_tile(tracer, tile, first_sample, end_sample);
+    enum status status = interrupt_requested() ? STATUS_INTERRUPTED : record_tile(tracer, tile, portion);
     if (status != STATUS_DONE)
         return status;
     double start = clock_ms();
@@ -102,45 +115,39 @@ static const void *tile_values(const struct tracer *tracer)
     return tracer->staging.buffer ? tracer->staging.mapped : tracer->picture.mapped;
 }
 
-/* Whether the driver ended a loop early: the shader marks such pixels with -1. */
-static bool was_cut(const struct tracer *tracer, struct window tile)
+/* The lowest mark of a pixel that has no value yet, UNFINISHED or TOO_LONG, or something lower where ended
+ * loops have left a pixel as it was in memory; 0 if all have values. */
+static double tile_mark(const struct tracer *tracer, struct window tile)
 {
     const float *floats = tile_values(tracer);
     const double *doubles = tile_values(tracer);
     size_t count = (size_t)tile.width * tile.height * CHANNELS;
-    for (size_t i = 0; i < count; i += CHANNELS)
-        if (tracer->double_precision ? doubles[i] < 0 : floats[i] < 0)
-            return true;
-    return false;
+    double mark = 0;
+    for (size_t i = 0; i < count; i += CHANNELS) {
+        double value = tracer->double_precision ? doubles[i] : (double)floats[i];
+        mark = value < mark ? value : mark;
+    }
+    return mark;
 }
 
-/* Renders the tile's samples, a part of them at a time. Lavapipe ends loops after 65535 turns of all loops of
- * an invocation together: where that shows, one pixel and one sample at a time have to do from then on. */
-static enum status render_tile(struct tracer *tracer, struct window tile, double *dispatch_ms)
+/* Renders the tile's samples, a part of them at a time. *too_long: the driver may have ended loops early. */
+static enum status render_tile(struct tracer *tracer, struct window tile, double *dispatch_ms, bool *too_long)
 {
     const uint32_t samples = (uint32_t)tracer->packed->samples;
-    for (uint32_t first = 0, end; first < samples; first = end) {
+    enum status status = STATUS_DONE;
+    *too_long = false;
+    for (uint32_t first = 0, end; first < samples && status == STATUS_DONE && !*too_long; first = end) {
         end = samples - first < tracer->samples_per_dispatch ? samples : first + tracer->samples_per_dispatch;
-        enum status status =
-            interrupt_requested() ? STATUS_INTERRUPTED : dispatch_tile(tracer, tile, first, end, dispatch_ms);
-        if (status != STATUS_DONE)
-            return status;
+        struct portion portion = {first, end, false};
+        double mark;
+        do {
+            status = dispatch_tile(tracer, tile, portion, dispatch_ms);
+            mark = status == STATUS_DONE ? tile_mark(tracer, tile) : 0;
+            portion.goes_on = true;
+        } while (mark == UNFINISHED);
+        *too_long = mark <= TOO_LONG;
     }
-    if (!was_cut(tracer, tile))
-        return STATUS_DONE;
-    if (tracer->shape.rows == 1 && tracer->samples_per_dispatch == 1) {
-        log_error("%s ended a loop of the shader early (lavapipe does so after 65535 turns in a pixel): "
-                  "fewer bounces or light samples are needed",
-                  tracer->context->properties.deviceName);
-        return STATUS_UNABLE;
-    }
-    log_info("the driver ended a loop early; going on with one pixel and sample at a time");
-    tracer->shape.rows = 1;
-    tracer->samples_per_dispatch = 1;
-    vkDestroyPipeline(tracer->context->device, tracer->pipeline, NULL);
-    tracer->pipeline = VK_NULL_HANDLE;
-    enum status status = tracer_build_pipeline(tracer);
-    return status == STATUS_DONE ? render_tile(tracer, tile, dispatch_ms) : status;
+    return status;
 }
 
 /* Copies the finished tile into its place in the image of the window. */
@@ -164,30 +171,49 @@ static void copy_tile(const struct tracer *tracer, struct window window, struct 
     }
 }
 
-enum status tracer_render(struct tracer *tracer, struct window window, struct image *image,
-                          struct progress *progress, double *dispatch_ms)
+static enum status render_tiles(struct tracer *tracer, struct window window, struct image *image,
+                                struct progress *progress, double *dispatch_ms, bool *too_long)
 {
     unsigned tile_width = window.width < 1024 ? window.width : 1024;
     if (tile_width > tracer->tile_pixels)
         tile_width = tracer->tile_pixels;
     unsigned tile_height = tracer->tile_pixels / tile_width;
-    *dispatch_ms = 0;
     for (unsigned y = 0; y < window.height; y += tile_height) {
         for (unsigned x = 0; x < window.width; x += tile_width) {
-            if (interrupt_requested())
-                return STATUS_INTERRUPTED;
             struct window tile = {
                 .x = window.x + x,
                 .y = window.y + y,
                 .width = window.width - x < tile_width ? window.width - x : tile_width,
                 .height = window.height - y < tile_height ? window.height - y : tile_height,
             };
-            enum status status = render_tile(tracer, tile, dispatch_ms);
-            if (status != STATUS_DONE)
+            enum status status = render_tile(tracer, tile, dispatch_ms, too_long);
+            if (status != STATUS_DONE || *too_long)
                 return status;
             copy_tile(tracer, window, tile, image);
             progress_advance(progress, (uint64_t)tile.width * tile.height);
         }
     }
     return STATUS_DONE;
+}
+
+enum status tracer_render(struct tracer *tracer, struct window window, struct image *image,
+                          struct progress *progress, double *dispatch_ms)
+{
+    uint64_t done = progress->done;
+    bool too_long = false;
+    *dispatch_ms = 0;
+    enum status status = render_tiles(tracer, window, image, progress, dispatch_ms, &too_long);
+    if (status == STATUS_DONE && too_long && !tracer->patient) {
+        log_info("the driver may have ended loops early; going on in smaller portions");
+        progress->done = done;
+        *dispatch_ms = 0;
+        status = tracer_become_patient(tracer);
+        if (status == STATUS_DONE)
+            status = render_tiles(tracer, window, image, progress, dispatch_ms, &too_long);
+    }
+    if (status != STATUS_DONE || !too_long)
+        return status;
+    log_error("%s ends the shader's loops after 65535 turns, too early for so many light samples",
+              tracer->context->properties.deviceName);
+    return STATUS_UNABLE;
 }

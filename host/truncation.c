@@ -13,8 +13,8 @@ static const float darkest = 0x1p-30f;
 /* Where float puts a point of a surface, off by less than this, in scene units. */
 static const double resolution = 0x1p-20;
 
-/* Stands for all relative rounding errors on the way of a ray: 6 bits more than a bounce loses, as products of
- * weights lose that much in 1000 bounces. */
+/* Stands for all relative rounding errors on the way of a ray: 6 bits more than a bounce loses, as products
+ * of weights lose that much in 1000 bounces. */
 static const double slack = 0x1p-10;
 
 static struct dvec3 from_vec4(layout_vec4 v)

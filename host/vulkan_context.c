@@ -209,11 +209,20 @@ static enum status open_device(struct vulkan_context *context, const char *choic
         return choice ? STATUS_REFUSED : STATUS_UNABLE;
 
     context->driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
-    VkPhysicalDeviceProperties2 properties = {
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+    VkPhysicalDeviceSubgroupProperties subgroup = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES,
         .pNext = &context->driver,
     };
+    VkPhysicalDeviceProperties2 properties = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+        .pNext = &subgroup,
+    };
     vkGetPhysicalDeviceProperties2(context->physical_device, &properties);
+    if (!(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT)) {
+        log_error("%s has no arithmetic over subgroups, which the shader needs",
+                  properties.properties.deviceName);
+        return STATUS_UNABLE;
+    }
     context->properties = properties.properties;
     context->driver.pNext = NULL;
     vkGetPhysicalDeviceMemoryProperties(context->physical_device, &context->memory);

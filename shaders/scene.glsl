@@ -27,6 +27,9 @@ layout(constant_id = 23) const bool CORRECTED_ROOT = true;     // with CORRECTED
 
 layout(constant_id = 24) const bool PRUNES = false; // rays are left out within the view's allowance
 
+layout(constant_id = 25) const uint TURN_LIMIT = ~0u; // of loops, after which the driver ends them all
+layout(constant_id = 26) const bool PATIENT = false;  // see patience.glsl
+
 const bool SECONDARY_RAYS = (MIRRORS || GLASS) && MAX_BOUNCES > 0;
 
 #ifdef SCENE_IN_STORAGE
@@ -47,18 +50,15 @@ SCENE_ARRAY(4, PackedQuadLight, quad_lights, QUAD_LIGHTS);
 // small scenes are copied to variables first thing; their loops are unrolled, which makes registers of them.
 const bool HOISTED = SPHERES + PLANES + POINT_LIGHTS + QUAD_LIGHTS <= 24;
 
-// A loop over objects or lights. Drivers unroll it by themselves where the scene is small; made to unroll 400
-// objects, lavapipe's compiler takes minutes.
-#define FOR_EACH(i, count, statement)             \
-    {                                             \
-        int i = 0;                                \
-        for (; i < count; ++i)                    \
-            statement                             \
-        loop_cut = loop_cut || i < count;         \
+// A loop over objects or lights. Made to unroll 400 objects, lavapipe's compiler takes minutes.
+#define FOR_EACH(i, count, statement)                     \
+    if (HOISTED) {                                        \
+        [[unroll]] for (int i = 0; i < count; ++i)        \
+            statement                                     \
+    } else {                                              \
+        for (int i = 0; i < count; ++i)                   \
+            statement                                     \
     }
-
-// The driver ended a loop early: lavapipe allows 65535 turns of all loops of an invocation together.
-bool loop_cut = false;
 
 PackedSphere hoisted_spheres[HOISTED ? SPHERES + 1 : 1];
 PackedPlane hoisted_planes[HOISTED ? PLANES + 1 : 1];

@@ -47,6 +47,11 @@ typedef struct PackedSurface PackedSurface;
 #define OUTPUT_SIGNATURE 2
 #define OUTPUT_TRUNCATION 3 /* the charges of the pixel's samples, summed, 0 and 0 */
 
+/* A pixel's first value where it has none yet: a patient pipeline has part of its ray tree left; or its loops were,
+ * or may have been, ended by the driver. */
+#define UNFINISHED (-1.0)
+#define TOO_LONG (-2.0)
+
 /* A ray that is not traced is charged the most that it could have brought, its weight times the bound on
  * radiance. Charges are summed to nearest; this factor after each makes them sums rounded up. */
 #define ROUND_UP 1.0000002384185791015625 /* 1 + 2^-22 */

@@ -53,8 +53,7 @@ real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout Tall
     real3 radiance = real3(get_quad_light(i).radiance.xyz);
     Sequence sequence = sequence_of(seed);
     exact real sum = real(0);
-    int k = 0;
-    for (; k < LIGHT_SAMPLES; ++k) {
+    for (int k = 0; k < LIGHT_SAMPLES; ++k) {
         real u, v;
         sequence_point(sequence, first_sample + uint(k), u, v);
         exact real3 light = corner + u * edge_u + v * edge_v;
@@ -66,7 +65,6 @@ real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout Tall
         if (lit)
             sum = sum + irradiance * projected_area;
     }
-    loop_cut = loop_cut || k < LIGHT_SAMPLES;
     exact real3 total = radiance * sum;
     return total;
 }

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 
 #include "scene.glsl"
 #include "arithmetic.glsl"
@@ -11,80 +12,20 @@
 #include "intersect.glsl"
 #include "shade.glsl"
 #include "dielectric.glsl"
+#include "path.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(std430, set = 0, binding = 5) buffer Picture { real picture[]; }; // the tile, RGB; sums until the last sample
 layout(push_constant) uniform TileBlock {
     uvec2 origin, size, image_size; // pixels
     uint first_sample, end_sample;  // of SAMPLES, in this dispatch
+    uint goes_on;                   // patient: not 0 after the first dispatch of a sample
 } tile;
 uvec2 tile_origin, tile_size, image_size;
 uint first_sample, end_sample;
+bool sample_goes_on;
 
 const bool CHARGES = PRUNES || OUTPUT == OUTPUT_TRUNCATION;
-const bool LIGHTS_TELL_BRANCHES = GLASS && QUAD_LIGHTS > 0;
-
-// A ray, what it counts for in the pixel, and the bounces it has behind it.
-struct Path {
-    Ray ray;
-    real weight;
-    int bounces;
-    uint branch; // in the binary tree of splits, 0 the root, children of i: 2 i + 1 refracted, 2 i + 2 reflected
-};
-
-// The reflections still to be traced: at most one for every bounce count.
-const int STACK_ROOM = GLASS && MAX_BOUNCES > 0 ? MAX_BOUNCES : 1;
-const bool STACK_IN_REGISTERS = STACK_ROOM <= 8; // selects cost less than indexed memory on lavapipe
-real3 stack_origin[STACK_ROOM], stack_direction[STACK_ROOM];
-real stack_weight[STACK_ROOM];
-int stack_state[STACK_ROOM]; // (surface * 2 + inward) * 1024 + bounces
-uint stack_branch[LIGHTS_TELL_BRANCHES ? STACK_ROOM : 1];
-
-void store_pending(int i, Path path)
-{
-    stack_origin[i] = path.ray.origin;
-    stack_direction[i] = path.ray.direction;
-    stack_weight[i] = path.weight;
-    stack_state[i] = (path.ray.surface << 1 | int(path.ray.inward)) << 10 | path.bounces;
-    if (LIGHTS_TELL_BRANCHES)
-        stack_branch[i] = path.branch;
-}
-
-void load_pending(int i, inout Path path)
-{
-    path.ray.origin = stack_origin[i];
-    path.ray.direction = stack_direction[i];
-    path.weight = stack_weight[i];
-    path.ray.surface = stack_state[i] >> 11;
-    path.ray.inward = (stack_state[i] >> 10 & 1) != 0;
-    path.bounces = stack_state[i] & 1023;
-    if (LIGHTS_TELL_BRANCHES)
-        path.branch = stack_branch[i];
-}
-
-void push(Path path, inout int pending)
-{
-    if (STACK_IN_REGISTERS) {
-        [[unroll]] for (int i = 0; i < STACK_ROOM; ++i)
-            if (i == pending)
-                store_pending(i, path);
-    } else {
-        store_pending(pending, path);
-    }
-    ++pending;
-}
-
-void pop(inout Path path, inout int pending)
-{
-    --pending;
-    if (STACK_IN_REGISTERS) {
-        [[unroll]] for (int i = 0; i < STACK_ROOM; ++i)
-            if (i == pending)
-                load_pending(i, path);
-    } else {
-        load_pending(pending, path);
-    }
-}
 
 struct Pixel {
     real3 radiance; // sum over the samples
@@ -95,6 +36,8 @@ struct Pixel {
     uint sample_index;
     Tally tally;
 };
+
+#include "patience.glsl"
 
 void charge(inout Pixel pixel, real weight)
 {
@@ -213,15 +156,13 @@ void add_leaf(inout Pixel pixel, Path path, Hit hit, real3 point, real3 normal)
     pixel.rounding = rounding;
 }
 
-// One turn of the loop traces one ray of the tree.
-void trace(inout Pixel pixel, Path path)
+// One turn of the loop traces one ray of the tree. Whether a patient pipeline has left some of the tree.
+bool trace(inout Pixel pixel, inout Path path, inout int pending)
 {
-    pixel.leaves = real3(0);
-    pixel.rounding = real3(0);
-    pixel.charge = real(0);
-    int pending = 0;
     bool goes_on = true;
-    while (goes_on) {
+    uint rays = 0u, leaves = 0u;
+    while (goes_on && (!PATIENT || rays < PORTION)) {
+        ++rays;
         Hit hit = nearest_hit(path.ray);
         note(pixel.tally, uint(hit.surface + 1) * 2u + uint(hit.leaving));
         real3 point, normal;
@@ -233,6 +174,7 @@ void trace(inout Pixel pixel, Path path)
             else if (CHARGES)
                 charge(pixel, path.weight);
         } else {
+            ++leaves;
             add_leaf(pixel, path, hit, point, normal);
         }
         if (GLASS && SECONDARY_RAYS && !goes_on && pending > 0) {
@@ -242,17 +184,34 @@ void trace(inout Pixel pixel, Path path)
         if (goes_on)
             ++pixel.tally.secondary_rays;
     }
-    loop_cut = loop_cut || goes_on;
+    most_rays = max(most_rays, rays);
+    most_leaves = max(most_leaves, leaves);
+    return PATIENT && goes_on;
+}
+
+// Whether the sample is finished, that is, added to the pixel.
+bool render_sample(inout Pixel pixel, Path path, uint place)
+{
+    int pending = 0;
+    pixel.leaves = real3(0);
+    pixel.rounding = real3(0);
+    pixel.charge = real(0);
+    if (PATIENT && sample_goes_on)
+        load(place, pixel, path, pending);
+    if (trace(pixel, path, pending)) {
+        save(place, pixel, path, pending);
+        return false;
+    }
     exact real3 radiance = pixel.radiance + (pixel.leaves + pixel.rounding);
     pixel.radiance = radiance;
     exact real charges = (pixel.charges + pixel.charge) * real(ROUND_UP);
     pixel.charges = charges;
+    return true;
 }
 
 // Takes up what the dispatches of the samples before have left.
 void resume(inout Pixel pixel, real3 left)
 {
-    loop_cut = left.x < real(0);
     if (OUTPUT == OUTPUT_RADIANCE)
         pixel.radiance = left;
     if (OUTPUT == OUTPUT_TRUNCATION)
@@ -263,30 +222,33 @@ void resume(inout Pixel pixel, real3 left)
         pixel.tally.signature = uint(left.x) | uint(left.y) << 16;
 }
 
-// The pixel's three values; the first is -1 where the driver ended a loop early.
-real3 render_pixel(uvec2 position, uint base)
+// The pixel's three values; the first is UNFINISHED where it is not done.
+real3 render_pixel(uvec2 position, uint place)
 {
-    loop_cut = false;
     Pixel pixel = Pixel(real3(0), real3(0), real3(0), real(0), real(0), 0u, 0u, Tally(0u, 0u, 0u));
+    real3 left = real3(0);
+    if (SAMPLES > 1 || PATIENT)
+        left = real3(picture[3u * place], picture[3u * place + 1u], picture[3u * place + 2u]);
+    if (PATIENT && sample_goes_on && left.x != real(UNFINISHED))
+        return left;
     if (SAMPLES > 1 || QUAD_LIGHTS > 0)
         pixel.seed = hash(hash(position.x) + position.y);
+    bool finished = true;
     if (SAMPLES == 1) {
-        trace(pixel, primary_path(position, real(0.5), real(0.5)));
+        finished = render_sample(pixel, primary_path(position, real(0.5), real(0.5)), place);
     } else {
         Sequence sequence = sequence_of(pixel.seed);
         if (first_sample > 0u)
-            resume(pixel, real3(picture[base], picture[base + 1u], picture[base + 2u]));
-        uint k = first_sample;
-        for (; k < end_sample; ++k) {
+            resume(pixel, left);
+        for (uint k = first_sample; k < end_sample; ++k) {
             pixel.sample_index = k;
             real x, y;
             sequence_point(sequence, k, x, y);
-            trace(pixel, primary_path(position, x, y));
+            finished = render_sample(pixel, primary_path(position, x, y), place);
         }
-        loop_cut = loop_cut || k < end_sample;
     }
-    if (loop_cut)
-        return real3(-1);
+    if (PATIENT && !finished)
+        return real3(UNFINISHED);
     if (OUTPUT == OUTPUT_RAYS)
         return real3(real(SAMPLES), real(pixel.tally.secondary_rays), real(pixel.tally.shadow_rays));
     if (OUTPUT == OUTPUT_SIGNATURE)
@@ -315,17 +277,19 @@ void main()
     image_size = tile.image_size;
     first_sample = tile.first_sample;
     end_sample = tile.end_sample;
-    uint row = 0u;
-    for (; row < ROWS; ++row) {
+    sample_goes_on = tile.goes_on != 0u;
+    for (uint row = 0u; row < ROWS; ++row) {
         uvec2 in_tile = uvec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * ROWS + row);
         bool inside = all(lessThan(in_tile, tile_size));
-        uint base = inside ? (in_tile.y * tile_size.x + in_tile.x) * 3u : 0u;
-        real3 value = render_pixel(tile_origin + in_tile, base);
+        uint place = inside ? in_tile.y * tile_size.x + in_tile.x : 0u;
+        real3 value = real3(0);
+        if (!PATIENT || inside)
+            value = render_pixel(tile_origin + in_tile, place);
         if (inside)
             for (uint c = 0u; c < 3u; ++c)
-                picture[base + c] = value[c];
+                picture[3u * place + c] = value[c];
     }
     uvec2 first = uvec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * ROWS);
-    if (row < ROWS && all(lessThan(first, tile_size))) // cut in this very loop
-        picture[(first.y * tile_size.x + first.x) * 3u] = real(-1);
+    if (too_many_turns(end_sample - first_sample) && all(lessThan(first, tile_size)))
+        picture[3u * (first.y * tile_size.x + first.x)] = real(TOO_LONG);
 }

@@ -63,3 +63,11 @@ add_agreement(many_turns/figure_2b/64x40/samples_256 ${PROJECT_SOURCE_DIR}/scene
               --size 64x40 --samples 256)
 add_agreement(many_turns/overlapping_glass/120x80/bounces_32
               ${CMAKE_CURRENT_SOURCE_DIR}/scenes/overlapping_glass.yaml --size 120x80 --max-bounces 32)
+# Up to 400000 rays in a pixel: one sample takes several dispatches.
+foreach(arguments "" "--precision;double" "--samples;2" "--max-error;1e-12")
+    string(MAKE_C_IDENTIFIER "${arguments}" name)
+    add_agreement(many_turns/diamond/30x20/bounces_64${name} ${PROJECT_SOURCE_DIR}/scenes/hard/diamond.yaml
+                  --size 30x20 --max-bounces 64 ${arguments})
+endforeach()
+add_agreement(many_turns/touching/120x80/bounces_64 ${PROJECT_SOURCE_DIR}/scenes/hard/touching.yaml
+              --size 120x80 --max-bounces 64)

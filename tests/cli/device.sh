@@ -43,7 +43,7 @@ loops_ended_early() {
     "$VKWHITTED" check --size 4x4 --light-samples 65536 "$SOURCE_DIR/scenes/figure_2b.yaml" >out 2>err
     case $? in
     0) said ': 0 of 16 pixels differ' out ;;
-    3) said '^vkwhitted: error: .* ended a loop of the shader early' ;;
+    3) said '^vkwhitted: error: .* ends the shader.s loops after 65535 turns' ;;
     *) fail "exit status $?" ;;
     esac
 }
