@@ -80,6 +80,11 @@ static inline struct vec3 renormalize(struct vec3 v)
     return scale((real)1.5 - (real)0.5 * dot(v, v), v);
 }
 
+static inline real absolute(real x)
+{
+    return x < 0 ? -x : x;
+}
+
 static inline real at_least_zero(real x)
 {
     return x > 0 ? x : 0;

@@ -16,9 +16,9 @@ struct reference_window {
 
 /* What the window's pixels get, row by row from the top. */
 struct reference_picture {
-    double *rgb;          /* linear RGB radiance, rounded to double: 3 * width * height */
-    uint32_t *signatures; /* hash of every decision of the ray tree; NULL: not wanted */
-    double *charges;      /* OUTPUT_TRUNCATION of scene_layout.h; NULL: not wanted */
+    double *rgb;                /* linear RGB radiance, rounded to double: 3 * width * height */
+    uint32_t *signatures;       /* hash of every decision of the ray tree; NULL: not wanted */
+    double *charges;            /* OUTPUT_TRUNCATION of scene_layout.h; NULL: not wanted */
     struct reference_rays rays; /* what was traced is added */
 };
 

@@ -3,6 +3,7 @@
 #include "camera.h"
 #include "dielectric.h"
 #include "geometry.h"
+#include "lost.h"
 #include "matte.h"
 #include "reference.h"
 #include "sobol.h"
@@ -13,7 +14,7 @@ struct sample {
     const struct packed_scene *scene;
     uint32_t seed, index;
     struct vec3 radiance, rounding; /* the rounded sum, and what rounding took from it */
-    real charge; /* for rays that were not traced */
+    real charge;                    /* for rays that were not traced */
     struct tally tally;
 };
 
@@ -123,10 +124,10 @@ static void trace(struct sample *sample, const struct path *path)
         .surface = hit.surface,
         .inward = hit.leaving,
     };
-    if (hit.material->tags.x == KIND_MIRROR)
-        trace_secondary(sample, &reflected);
-    else
+    if (hit.material->tags.x == KIND_TRANSPARENT)
         trace_dielectric(sample, path, &hit, reflected);
+    else if (scene->view.between_mirrors.w == 0 || !is_lost(scene, &reflected.ray))
+        trace_secondary(sample, &reflected);
 }
 
 struct pixel {

@@ -37,6 +37,7 @@ struct specialization specialize(const struct packed_scene *scene, const struct 
         .rows = shape->rows,
         .output = output,
         .prunes = scene->view.truncation.y >= 0,
+        .rays_get_lost = scene->view.between_mirrors.w != 0,
     };
     int last_sphere_rank = -1;
     for (int i = 0; i < scene->sphere_count; ++i) {

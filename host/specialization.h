@@ -23,7 +23,7 @@ struct specialization {
     VkBool32 corrected_division, corrected_root; /* see probe.h */
     VkBool32 prunes;
     uint32_t turn_limit;
-    VkBool32 patient;
+    VkBool32 patient, rays_get_lost;
 };
 
 /* Finds what the scene needs, so that the pipeline holds nothing else. */

@@ -1,6 +1,7 @@
 #include "truncation.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 #include "vector.h"
 
@@ -133,10 +134,39 @@ static double rounding(const struct packed_scene *scene, double radiance)
     return roundings * 0x1p-24 * radiance;
 }
 
+/* The normal of two parallel mirrors that face each other, with w = 1, if every other plane is matte and
+ * stands across them; otherwise 0. */
+static layout_vec4 between_mirrors(const struct packed_scene *scene)
+{
+    const layout_vec4 none = {0, 0, 0, 0};
+    layout_vec4 normal = none;
+    bool faced = false;
+    for (int i = 0; i < scene->plane_count; ++i) {
+        layout_vec4 other = scene->planes[i].normal_offset;
+        if (scene->planes[i].surface.tags.x != KIND_MIRROR)
+            continue;
+        if (normal.w == 0)
+            normal = (layout_vec4){other.x, other.y, other.z, 1};
+        bool parallel = other.x == normal.x && other.y == normal.y && other.z == normal.z;
+        bool faces = other.x == -normal.x && other.y == -normal.y && other.z == -normal.z;
+        if (!parallel && !faces)
+            return none;
+        faced |= faces;
+    }
+    for (int i = 0; i < scene->plane_count; ++i)
+        if (scene->planes[i].surface.tags.x == KIND_TRANSPARENT ||
+            (scene->planes[i].surface.tags.x == KIND_MATTE &&
+             fabs(dvec3_dot(from_vec4(normal), from_vec4(scene->planes[i].normal_offset))) > resolution))
+            return none;
+    return faced ? normal : none;
+}
+
 void truncation_pack(struct packed_scene *scene, double max_error)
 {
     double radiance = truncation_radiance(scene);
     double allowance = max_error * (1 - slack) - rounding(scene, radiance);
+    if (max_error >= 0)
+        scene->view.between_mirrors = between_mirrors(scene);
     scene->view.truncation = (layout_vec4){
         .x = radiance < (double)unbounded ? (float)(radiance * (1 + slack)) + darkest : unbounded,
         .y = allowance > 0 && radiance < (double)unbounded ? (float)allowance : -1,

@@ -10,8 +10,9 @@
  * a light touches a matte surface. Holds for what float computes, not only for exact arithmetic. */
 double truncation_radiance(const struct packed_scene *scene);
 
-/* Writes the scene's view.truncation for pixels that may differ by max_error from the picture with all
- * bounces; max_error < 0: no ray is left out. The lights, surfaces and samples of the scene are final. */
+/* Writes the scene's view.truncation and view.between_mirrors for pixels that may differ by max_error from
+ * the picture with all bounces; max_error < 0: no ray is left out. The lights, surfaces and samples of the
+ * scene are final. */
 void truncation_pack(struct packed_scene *scene, double max_error);
 
 /* How far a pixel is from the picture with all bounces at most, both as computed, given the pixel's charges

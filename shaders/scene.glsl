@@ -29,6 +29,7 @@ layout(constant_id = 24) const bool PRUNES = false; // rays are left out within 
 
 layout(constant_id = 25) const uint TURN_LIMIT = ~0u; // of loops, after which the driver ends them all
 layout(constant_id = 26) const bool PATIENT = false;  // see patience.glsl
+layout(constant_id = 27) const bool RAYS_GET_LOST = false; // between parallel mirrors
 
 const bool SECONDARY_RAYS = (MIRRORS || GLASS) && MAX_BOUNCES > 0;
 

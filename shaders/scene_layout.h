@@ -52,6 +52,10 @@ typedef struct PackedSurface PackedSurface;
 #define UNFINISHED (-1.0)
 #define TOO_LONG (-2.0)
 
+/* What the direction of a ray and the line it keeps to between parallel mirrors may be off by after 1000 bounces,
+ * relative: a bounce loses less than 2^-20. */
+#define MIRROR_DRIFT 0.0009765625 /* 2^-10 */
+
 /* A ray that is not traced is charged the most that it could have brought, its weight times the bound on
  * radiance. Charges are summed to nearest; this factor after each makes them sums rounded up. */
 #define ROUND_UP 1.0000002384185791015625 /* 1 + 2^-22 */
@@ -101,6 +105,8 @@ struct PackedView {
     /* x: no ray brings more radiance than this; y: what a sample may be charged for rays that are left out,
      * negative where all are traced. */
     LAYOUT_VEC4 truncation;
+    LAYOUT_VEC4 between_mirrors; /* xyz: unit normal of parallel mirrors, w: not 0 where rays that get lost
+                                  * between them are to be left out */
 };
 
 #endif

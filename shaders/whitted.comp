@@ -12,6 +12,7 @@
 #include "intersect.glsl"
 #include "shade.glsl"
 #include "dielectric.glsl"
+#include "lost.glsl"
 #include "path.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
@@ -109,7 +110,7 @@ bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real
     path.ray.surface = hit.surface;
     path.ray.inward = hit.leaving;
     if (!GLASS || hit.kind != KIND_TRANSPARENT)
-        return true;
+        return !(RAYS_GET_LOST && is_lost(path.ray));
 
     real eta = real(hit.leaving ? hit.parameters.z : hit.parameters.x);
     real kappa = real(hit.leaving ? hit.parameters.w : hit.parameters.y);
