@@ -43,7 +43,8 @@ static real charge_with(const struct sample *sample, real weight)
 static bool is_traced(struct sample *sample, real weight)
 {
     real charge = charge_with(sample, weight);
-    if (weight > (real)SMALLEST_WEIGHT && charge > (real)sample->scene->view.truncation.y)
+    real left = (real)sample->scene->view.truncation.y - sample->charge;
+    if (weight > (real)SMALLEST_WEIGHT && charge - sample->charge > (real)LARGEST_SHARE * left)
         return true;
     sample->charge = charge;
     return false;

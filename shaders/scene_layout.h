@@ -60,6 +60,10 @@ typedef struct PackedSurface PackedSurface;
  * radiance. Charges are summed to nearest; this factor after each makes them sums rounded up. */
 #define ROUND_UP 1.0000002384185791015625 /* 1 + 2^-22 */
 
+/* A ray is left out on purpose if it is charged at most this share of what is left of the allowance; see
+ * NUMERICS.md. */
+#define LARGEST_SHARE 0.25
+
 struct PackedSurface {
     /* matte: albedo / pi in xyz, Oren-Nayar's A in w.
      * transparent: eta entering, 1 - eta^2 entering, eta leaving, 1 - eta^2 leaving. */

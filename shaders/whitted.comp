@@ -53,7 +53,9 @@ bool is_traced(inout Pixel pixel, real weight)
     if (CHARGES) {
         real before = pixel.charge;
         charge(pixel, weight);
-        traced = traced && !(PRUNES && pixel.charge <= real(hoisted_view.truncation.y));
+        exact real more = pixel.charge - before;
+        exact real share = real(LARGEST_SHARE) * (real(hoisted_view.truncation.y) - before);
+        traced = traced && !(PRUNES && more <= share);
         pixel.charge = traced ? before : pixel.charge;
     }
     return traced;
