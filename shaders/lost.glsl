@@ -22,8 +22,9 @@ bool is_lost(Ray ray)
             real line_squared = dot3(line, line);
             real apart_squared = dot3(apart, apart);
             exact real reach_squared = reach * reach;
+            exact real reach_on_line = reach_squared * line_squared;
             exact real beside = apart_squared * line_squared - along * along;
-            lost = lost && (along > real(0) ? beside > reach_squared * line_squared : apart_squared > reach_squared);
+            lost = lost && (along > real(0) ? beside > reach_on_line : apart_squared > reach_squared);
         })
     return lost;
 }

@@ -20,8 +20,9 @@ bool too_many_turns(uint samples)
     if (TURN_LIMIT == ~0u)
         return false;
     uint rays = subgroupMax(most_rays), leaves = min(rays, subgroupAdd(most_leaves));
-    float turns = float(TURNS_OF_A_SAMPLE) + float(rays) * float(TURNS_OF_A_RAY) + float(leaves) * float(TURNS_OF_A_LEAF);
-    return turns * float(ROWS * samples) >= float(TURN_LIMIT);
+    exact float turns = float(TURNS_OF_A_SAMPLE) + float(rays) * float(TURNS_OF_A_RAY) + float(leaves) * float(TURNS_OF_A_LEAF);
+    exact float all_turns = turns * float(ROWS * samples);
+    return all_turns >= float(TURN_LIMIT);
 }
 
 struct SavedPath {
