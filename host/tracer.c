@@ -242,12 +242,15 @@ static unsigned choose_tile_pixels(const struct vulkan_context *context, const s
     return (unsigned)(pixels < fitting ? pixels : fitting);
 }
 
-/* So many that an invocation's loops stay well below lavapipe's limit, as far as can be told beforehand. */
+/* So many that an invocation's loops stay well below lavapipe's limit, as far as can be told beforehand: as
+ * patience.glsl counts them, with 16 rays and as many leaves where there are secondary rays. */
 static unsigned choose_samples_per_dispatch(const struct packed_scene *scene, unsigned rows)
 {
-    uint64_t turns_per_sample =
-        rows * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
-    uint64_t samples = (UINT64_C(1) << 15) / turns_per_sample;
+    uint64_t objects = (uint64_t)(scene->sphere_count + scene->plane_count);
+    uint64_t lights = (uint64_t)scene->point_light_count +
+                      (uint64_t)scene->quad_light_count * (uint64_t)scene->light_samples;
+    uint64_t rays = scene->max_bounces > 0 ? 16 : 1;
+    uint64_t samples = (UINT64_C(1) << 15) / (rows * rays * (1 + objects) * (1 + lights));
     return samples < 1 ? 1 : (unsigned)samples;
 }
 

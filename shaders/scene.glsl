@@ -51,15 +51,11 @@ SCENE_ARRAY(4, PackedQuadLight, quad_lights, QUAD_LIGHTS);
 // small scenes are copied to variables first thing; their loops are unrolled, which makes registers of them.
 const bool HOISTED = SPHERES + PLANES + POINT_LIGHTS + QUAD_LIGHTS <= 24;
 
-// A loop over objects or lights. Made to unroll 400 objects, lavapipe's compiler takes minutes.
-#define FOR_EACH(i, count, statement)                     \
-    if (HOISTED) {                                        \
-        [[unroll]] for (int i = 0; i < count; ++i)        \
-            statement                                     \
-    } else {                                              \
-        for (int i = 0; i < count; ++i)                   \
-            statement                                     \
-    }
+// A loop over objects or lights. Drivers unroll it by themselves where the scene is small; made to unroll 400
+// objects, lavapipe's compiler takes minutes.
+#define FOR_EACH(i, count, statement)     \
+    for (int i = 0; i < count; ++i)       \
+        statement
 
 PackedSphere hoisted_spheres[HOISTED ? SPHERES + 1 : 1];
 PackedPlane hoisted_planes[HOISTED ? PLANES + 1 : 1];
