@@ -5,9 +5,10 @@
 static const char help_text[] =
     "usage: vkwhitted render SCENE [-o FILE]...  render a picture: .png, .exr or .pfm\n"
     "       vkwhitted check SCENE...             compare device and reference, pixel by pixel\n"
+    "       vkwhitted bench SCENE...             measure speed and error of many settings\n"
     "       vkwhitted devices                    list the Vulkan devices\n"
     "\n"
-    "picture (render, check):\n"
+    "picture (render, check; bench takes the first):\n"
     "  --size WxH               pixels, instead of the scene's\n"
     "  --crop X,Y,W,H           only this part, in pixels from the top left\n"
     "  --max-bounces N          0 to 1000, instead of the scene's\n"
@@ -15,7 +16,7 @@ static const char help_text[] =
     "  --light-samples N        samples a quad light, 1 to 65536, instead of the scene's\n"
     "  --max-error E            leave out rays that together change no pixel by more than E\n"
     "\n"
-    "  --backend vulkan|cpu     cpu: the plain-C reference (check: with --against)\n"
+    "  --backend vulkan|cpu     cpu: the plain-C reference (check: with --against; also bench)\n"
     "  --precision float|double|quad   double on a device that has it, quad on the CPU\n"
     "  --fast                   contraction and built-in functions allowed on the device\n"
     "  --threads N              of the CPU reference (default: all processors)\n"
@@ -38,10 +39,15 @@ static const char help_text[] =
     "  --heatmap FILE.png       where they differ, as a picture\n"
     "  --json FILE              the result for machines\n"
     "\n"
+    "bench:\n"
+    "  --quick                  a minute's worth\n"
+    "  --json FILE, --csv FILE  the measurements\n"
+    "  --compare OLD.json       what became faster, slower or less accurate beyond noise\n"
+    "\n"
     "  -q, -v                   quiet, verbose\n"
     "  -h, --help  --version\n"
     "\n"
-    "exit status: 0 done, 1 a check found a difference, 2 bad usage or input,\n"
+    "exit status: 0 done, 1 a check or comparison found a difference, 2 bad usage or input,\n"
     "3 the machine could not do it\n";
 
 static enum status finish(FILE *stream)

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "command_bench.h"
 #include "command_check.h"
 #include "command_render.h"
 #include "options.h"
@@ -13,6 +14,8 @@ static enum status run(const struct options *options)
         return command_render(options);
     case COMMAND_CHECK:
         return command_check(options);
+    case COMMAND_BENCH:
+        return command_bench(options);
     case COMMAND_DEVICES:
         return vulkan_print_devices(&options->vulkan);
     case COMMAND_COUNT:

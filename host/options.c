@@ -13,6 +13,7 @@
 enum {
     RENDER = 1 << COMMAND_RENDER,
     CHECK = 1 << COMMAND_CHECK,
+    BENCH = 1 << COMMAND_BENCH,
     DEVICES = 1 << COMMAND_DEVICES,
 };
 
@@ -37,6 +38,9 @@ enum option_id {
     OPTION_AGAINST,
     OPTION_HEATMAP,
     OPTION_JSON,
+    OPTION_CSV,
+    OPTION_COMPARE,
+    OPTION_QUICK,
     OPTION_HELP,
     OPTION_VERSION,
 };
@@ -62,6 +66,9 @@ static const struct option long_options[] = {
     {"against", required_argument, NULL, OPTION_AGAINST},
     {"heatmap", required_argument, NULL, OPTION_HEATMAP},
     {"json", required_argument, NULL, OPTION_JSON},
+    {"csv", required_argument, NULL, OPTION_CSV},
+    {"compare", required_argument, NULL, OPTION_COMPARE},
+    {"quick", no_argument, NULL, OPTION_QUICK},
     {"help", no_argument, NULL, OPTION_HELP},
     {"version", no_argument, NULL, OPTION_VERSION},
     {0},
@@ -80,8 +87,16 @@ static int takers(int id)
     case OPTION_ALLOW:
     case OPTION_AGAINST:
     case OPTION_HEATMAP:
-    case OPTION_JSON:
         return CHECK;
+    case OPTION_JSON:
+        return CHECK | BENCH;
+    case OPTION_CSV:
+    case OPTION_COMPARE:
+    case OPTION_QUICK:
+        return BENCH;
+    case OPTION_BACKEND:
+    case OPTION_SIZE:
+        return RENDER | CHECK | BENCH;
     case OPTION_DEVICE:
     case OPTION_VALIDATE:
     case 'q':
@@ -89,7 +104,7 @@ static int takers(int id)
     case 'h':
     case OPTION_HELP:
     case OPTION_VERSION:
-        return RENDER | CHECK | DEVICES;
+        return RENDER | CHECK | BENCH | DEVICES;
     default:
         return RENDER | CHECK;
     }
@@ -270,6 +285,15 @@ static enum status read_option(int id, const char *argument, struct options *opt
     case OPTION_JSON:
         options->json = argument;
         break;
+    case OPTION_CSV:
+        options->csv = argument;
+        break;
+    case OPTION_COMPARE:
+        options->compare = argument;
+        break;
+    case OPTION_QUICK:
+        options->quick = true;
+        break;
     case 'q':
         options->quiet = true;
         log_set_verbosity(-1);
@@ -317,20 +341,20 @@ static enum status check_consistency(const struct options *options)
 
 static enum status read_command(const char *name, enum command *command)
 {
-    static const char *const names[COMMAND_COUNT] = {"render", "check", "devices"};
+    static const char *const names[COMMAND_COUNT] = {"render", "check", "bench", "devices"};
     for (int i = 0; i < COMMAND_COUNT; ++i)
         if (strcmp(name, names[i]) == 0) {
             *command = (enum command)i;
             return STATUS_DONE;
         }
-    log_error("%s: expected a command: render, check or devices; see 'vkwhitted --help'", name);
+    log_error("%s: expected a command: render, check, bench or devices; see 'vkwhitted --help'", name);
     return STATUS_REFUSED;
 }
 
 enum status options_read(int argc, char **argv, struct options *options, bool *finished)
 {
     *finished = false;
-    *options = (struct options){.max_bounces = -1, .samples = 1};
+    *options = (struct options){.argc = argc, .argv = argv, .max_bounces = -1, .samples = 1};
     options->outputs = calloc((size_t)argc, sizeof *options->outputs);
     if (!options->outputs) {
         log_error("no memory for the command line");

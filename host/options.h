@@ -9,11 +9,13 @@
 #include "render.h"
 #include "vulkan_context.h"
 
-enum command { COMMAND_RENDER, COMMAND_CHECK, COMMAND_DEVICES, COMMAND_COUNT };
+enum command { COMMAND_RENDER, COMMAND_CHECK, COMMAND_BENCH, COMMAND_DEVICES, COMMAND_COUNT };
 
 /* The command line, checked. Strings point into argv. */
 struct options {
     enum command command;
+    int argc;
+    char **argv;
     char **scenes; /* paths */
     size_t scene_count;
     const char **outputs; /* -o */
@@ -39,6 +41,8 @@ struct options {
     enum precision
         against; /* PRECISION_FLOAT: bit for bit against the reference, otherwise against the truth */
     const char *stats, *json, *heatmap;
+    const char *csv, *compare; /* bench; compare is an earlier one's JSON file */
+    bool quick;
     bool quiet;
 };
 

@@ -343,7 +343,6 @@ static enum status pack_contents(struct packing *packing)
         packed->spheres[i].surface.tags.z = holds_rays(packed, i);
         packed->spheres[i].surface.tags.w = holds_lights(packed, &packed->spheres[i]);
     }
-    warn_of_overlaps(packing);
     return STATUS_DONE;
 }
 
@@ -374,6 +373,8 @@ enum status pack_scene(const struct scene *scene, const struct picture_settings 
         log_error("%s: no memory for %zu objects", scene->path, scene->object_count);
     if (status == STATUS_DONE)
         truncation_pack(packed, settings->has_max_error ? settings->max_error : -1);
+    if (status == STATUS_DONE && !settings->warned)
+        warn_of_overlaps(&packing);
     free(packing.sphere_sources);
     free(packing.plane_sources);
     if (status != STATUS_DONE)

@@ -11,6 +11,7 @@ struct picture_settings {
     bool has_max_error;
     double max_error; /* linear radiance, of a pixel's channel: rays that stay below it together are not
                          traced */
+    bool warned;      /* of overlaps, before: the scene has been packed already */
 };
 
 /* Rounds the scene to the single-precision form that device and reference read, in scene units, and settles

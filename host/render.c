@@ -13,12 +13,6 @@ const char *precision_name(enum precision precision)
     return names[precision];
 }
 
-static double median(double *values, size_t count)
-{
-    sort_doubles(values, count);
-    return count % 2 ? values[count / 2] : (values[count / 2 - 1] + values[count / 2]) / 2;
-}
-
 typedef enum status render_once(void *renderer, const struct render_plan *plan, struct image *image,
                                 struct progress *progress, double *milliseconds);
 
@@ -39,10 +33,13 @@ static enum status render_repeatedly(render_once *render, void *renderer, const 
     for (unsigned i = 0; i < plan->repeat && status == STATUS_DONE; ++i)
         status = render(renderer, plan, &rendering->image, &progress, &warm_ms[i]);
     progress_end(&progress);
-    if (status == STATUS_DONE)
-        rendering->dispatch_ms = plan->repeat ? median(warm_ms, plan->repeat) : rendering->first_dispatch_ms;
-    else
+    if (status == STATUS_DONE) {
+        sort_doubles(warm_ms, plan->repeat);
+        rendering->dispatch_ms =
+            plan->repeat ? sorted_quantile(warm_ms, plan->repeat, 0.5) : rendering->first_dispatch_ms;
+    } else {
         image_destroy(&rendering->image);
+    }
     free(warm_ms);
     return status;
 }
@@ -84,8 +81,8 @@ static enum status render_output(struct vulkan_context *context, const struct re
     return status;
 }
 
-static enum status count_rays(struct vulkan_context *context, const struct render_plan *plan,
-                              struct reference_rays *rays)
+enum status rays_on_device(struct vulkan_context *context, const struct render_plan *plan,
+                           struct reference_rays *rays)
 {
     struct image counts;
     enum status status = render_output(context, plan, OUTPUT_RAYS, &counts);
@@ -158,7 +155,7 @@ enum status render_on_device(struct vulkan_context *context, const struct render
     if (status != STATUS_DONE)
         return status;
     if (plan->count_rays)
-        status = count_rays(context, plan, &rendering->rays);
+        status = rays_on_device(context, plan, &rendering->rays);
     if (status == STATUS_DONE && plan->bound_truncation)
         status = bound_truncation(context, plan, &rendering->image);
     if (status != STATUS_DONE)

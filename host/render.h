@@ -38,6 +38,10 @@ enum status render_on_device(struct vulkan_context *context, const struct render
                              struct rendering *rendering);
 enum status render_on_cpu(const struct render_plan *plan, struct rendering *rendering);
 
+/* Adds the rays that the device traces for one picture. */
+enum status rays_on_device(struct vulkan_context *context, const struct render_plan *plan,
+                           struct reference_rays *rays);
+
 /* The path signatures of the window's pixels in float: the hash of every decision of the ray tree. The caller
  * frees them; NULL with any status but STATUS_DONE. */
 enum status signatures_on_device(struct vulkan_context *context, const struct render_plan *plan,

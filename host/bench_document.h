@@ -1,0 +1,34 @@
+#ifndef VKWHITTED_BENCH_DOCUMENT_H
+#define VKWHITTED_BENCH_DOCUMENT_H
+
+#include <jansson.h>
+
+#include "bench_measure.h"
+#include "compare.h"
+#include "options.h"
+#include "truth.h"
+
+/* Everything that a bench has found out about a scene. */
+struct bench_result {
+    const char *path;
+    struct picture_settings picture; /* the scene's */
+    struct bench_point *points;
+    size_t count;
+    const struct bench_truth *truth, *filtered; /* for all families but samples; for those */
+    bool has_agreement;
+    struct comparison agreement; /* of the device with the reference */
+    struct truth rounding;       /* of float against quad */
+    size_t rounding_pixels;
+    bool meters_device; /* joules are the device's, too */
+};
+
+/* Marks the points that nothing beats in both time and RMSE among those with the same truth. */
+void bench_mark_pareto(struct bench_point *points, size_t count);
+
+/* The document's head, its list of scenes empty. NULL without memory, as below. */
+json_t *bench_document(const struct options *options, const struct vulkan_context *context);
+
+/* A scene of the document. */
+json_t *bench_scene_document(const struct bench_result *result);
+
+#endif

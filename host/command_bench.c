@@ -1,0 +1,80 @@
+#include "command_bench.h"
+
+#include <stdio.h>
+
+#include "bench_compare.h"
+#include "bench_document.h"
+#include "bench_scene.h"
+#include "bench_table.h"
+#include "json_file.h"
+#include "output_file.h"
+
+static enum status check_outputs(const struct options *options)
+{
+    const char *const paths[] = {options->json, options->csv};
+    enum status status = STATUS_DONE;
+    for (size_t i = 0; i < sizeof paths / sizeof *paths && status == STATUS_DONE; ++i)
+        if (paths[i])
+            status = output_file_check(paths[i]);
+    return status;
+}
+
+static enum status measure(const struct options *options, struct vulkan_context *context, json_t *document)
+{
+    enum status status = STATUS_DONE;
+    for (size_t i = 0; i < options->scene_count && status == STATUS_DONE; ++i) {
+        json_t *scene;
+        status = bench_scene(options, context, options->scenes[i], &scene);
+        if (status != STATUS_DONE)
+            break;
+        if (i > 0)
+            putchar('\n');
+        bench_print_scene(scene, stdout);
+        fflush(stdout);
+        if (json_array_append_new(json_object_get(document, "scenes"), scene) != 0) {
+            log_error("no memory for the result of %s", options->scenes[i]);
+            status = STATUS_UNABLE;
+        }
+    }
+    return status;
+}
+
+static enum status deliver(const struct options *options, json_t *document, const json_t *old)
+{
+    enum status status = STATUS_DONE;
+    if (options->csv)
+        status = bench_csv_write(document, options->csv);
+    if (status == STATUS_DONE && options->json)
+        status = json_write(json_incref(document), options->json);
+    if (status == STATUS_DONE && old) {
+        putchar('\n');
+        status = bench_compare(old, document, stdout);
+    }
+    return status;
+}
+
+enum status command_bench(const struct options *options)
+{
+    struct vulkan_context *context = NULL; /* stays so with --backend cpu */
+    json_t *old = NULL, *document = NULL;
+    enum status status = check_outputs(options);
+    if (status == STATUS_DONE && options->compare)
+        status = bench_document_read(options->compare, &old);
+    if (status == STATUS_DONE && options->backend == BACKEND_VULKAN)
+        status = vulkan_context_create(&options->vulkan, &context);
+    if (status == STATUS_DONE) {
+        document = bench_document(options, context);
+        if (!document) {
+            log_error("no memory for the results, or the command line is not UTF-8");
+            status = STATUS_UNABLE;
+        }
+    }
+    if (status == STATUS_DONE)
+        status = measure(options, context, document);
+    if (status == STATUS_DONE)
+        status = deliver(options, document, old);
+    json_decref(document);
+    json_decref(old);
+    enum status closed = vulkan_context_destroy(&context);
+    return status == STATUS_DONE ? closed : status;
+}
