@@ -157,11 +157,11 @@ json_t *bench_scene_document(const struct bench_result *result)
             ? json_pack("{s:I, s:I}", "differing_pixels", (json_int_t)result->agreement.bit_differing,
                         "pixels", (json_int_t)picture->width * picture->height)
             : json_null();
-    return json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:s, s:I, s:s, s:I, s:o, s:o, s:o, s:o, s:o}", "scene",
-                     result->path, "width", (int)picture->width, "height", (int)picture->height,
+    return json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:b, s:s, s:I, s:s, s:I, s:o, s:o, s:o, s:o, s:o}",
+                     "scene", result->path, "width", (int)picture->width, "height", (int)picture->height,
                      "max_bounces", (int)picture->max_bounces, "light_samples", (int)picture->light_samples,
-                     "samples", (int)picture->samples, "truth", result->truth->text, "truth_pixels",
-                     (json_int_t)pixel_grid_count(&result->truth->grid), "truth_samples",
+                     "samples", (int)picture->samples, "sampled", lights, "truth", result->truth->text,
+                     "truth_pixels", (json_int_t)pixel_grid_count(&result->truth->grid), "truth_samples",
                      result->filtered->text, "truth_samples_pixels",
                      (json_int_t)pixel_grid_count(&result->filtered->grid), "points", points, "convergence",
                      convergence, "agreement", agreement, "rounding", describe_rounding(result),

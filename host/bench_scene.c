@@ -180,7 +180,7 @@ static enum status start_points(struct bench *bench, const struct bench_setting 
         status = bench_point_start(bench->context, &bench->scene, point, image);
         progress_advance(&bench->progress, (uint64_t)(bench->effort->start_share / (double)count));
         if (status == STATUS_UNABLE) {
-            log_warning("%s: %s is left out", bench->path, settings[i].options);
+            log_warning("%s: left out: %s", bench->path, settings[i].label);
             status = STATUS_DONE;
             continue;
         }
