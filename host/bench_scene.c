@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "bench_document.h"
+#include "bench_pictures.h"
 
 /* What a bench may cost. */
 struct effort {
@@ -51,7 +52,9 @@ struct bench {
     struct bench_point *points;
     size_t count;
     struct bench_result result;
+    json_t *pictures; /* NULL unless wanted */
     struct progress progress;
+    bool wants_pictures;
 };
 
 /* The reference's float picture against the exact one, with the error analysis. */
@@ -135,10 +138,15 @@ static enum status compare_backends(struct bench *bench, const struct bench_sett
             memcpy(device->rgb, image->rgb, (size_t)image->width * image->height * 3 * sizeof *image->rgb);
         return status;
     }
-    if (!is_as_the_scene_says(setting, BACKEND_CPU) || !device->rgb)
+    if (!is_as_the_scene_says(setting, BACKEND_CPU))
         return STATUS_DONE;
-    bench->result.has_agreement = true;
-    enum status status = image_compare(device, image, NULL, &bench->result.agreement);
+    enum status status = STATUS_DONE;
+    if (device->rgb) {
+        bench->result.has_agreement = true;
+        status = image_compare(device, image, NULL, &bench->result.agreement);
+    }
+    if (bench->wants_pictures && (status == STATUS_DONE || status == STATUS_DIFFERS))
+        return bench_pictures(device->rgb ? device : image, device->rgb ? image : NULL, &bench->pictures);
     return status == STATUS_DIFFERS ? STATUS_DONE : status;
 }
 
@@ -247,7 +255,10 @@ static json_t *describe(struct bench *bench)
     bench->result.truth = &bench->truth;
     bench->result.filtered = &bench->filtered;
     bench->result.meters_device = !discrete;
-    return bench_scene_document(&bench->result);
+    json_t *document = bench_scene_document(&bench->result);
+    if (document && bench->pictures)
+        json_object_set(document, "pictures", bench->pictures);
+    return document;
 }
 
 /* Warns, once, of what is doubtful in the scene. */
@@ -264,7 +275,13 @@ enum status bench_scene(const struct options *options, struct vulkan_context *co
                         json_t **document)
 {
     const struct effort *effort = options->quick ? &quick_effort : &full_effort;
-    struct bench bench = {.context = context, .path = path, .effort = effort, .start_ms = clock_ms()};
+    struct bench bench = {
+        .context = context,
+        .path = path,
+        .effort = effort,
+        .start_ms = clock_ms(),
+        .wants_pictures = options->report,
+    };
     unsigned deepest;
     bool has_secondary_rays;
     *document = NULL;
@@ -300,6 +317,7 @@ enum status bench_scene(const struct options *options, struct vulkan_context *co
     for (size_t i = 0; i < bench.count; ++i)
         bench_point_destroy(&bench.points[i]);
     free(bench.points);
+    json_decref(bench.pictures);
     bench_truth_destroy(&bench.truth);
     bench_truth_destroy(&bench.filtered);
     scene_destroy(&bench.scene);

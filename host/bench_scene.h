@@ -6,8 +6,8 @@
 #include "options.h"
 
 /* Measures one scene as the options say, on the context's device, or with NULL on the CPU alone. *document
- * gets what bench_document.h says of it; NULL with any status but STATUS_DONE. A setting that the device
- * cannot do is left out with a warning. */
+ * gets what bench_document.h says of it, with "pictures" for --report; NULL with any status but STATUS_DONE.
+ * A setting that the device cannot do is left out with a warning. */
 enum status bench_scene(const struct options *options, struct vulkan_context *context, const char *path,
                         json_t **document);
 

@@ -53,6 +53,9 @@ static void append_modes(struct list *list)
     append(list, cpu, "CPU", "--backend cpu");
     append(list, one, "CPU, 1 thread", "--backend cpu --threads 1");
     append(list, precise, "CPU, double", "--backend cpu --precision double");
+    precise.threads = 1;
+    if (!list->choice->quick)
+        append(list, precise, "CPU, double, 1 thread", "--backend cpu --precision double --threads 1");
 }
 
 static void append_max_errors(struct list *list, struct bench_setting setting)

@@ -39,6 +39,7 @@ enum option_id {
     OPTION_HEATMAP,
     OPTION_JSON,
     OPTION_CSV,
+    OPTION_REPORT,
     OPTION_COMPARE,
     OPTION_QUICK,
     OPTION_HELP,
@@ -67,6 +68,7 @@ static const struct option long_options[] = {
     {"heatmap", required_argument, NULL, OPTION_HEATMAP},
     {"json", required_argument, NULL, OPTION_JSON},
     {"csv", required_argument, NULL, OPTION_CSV},
+    {"report", required_argument, NULL, OPTION_REPORT},
     {"compare", required_argument, NULL, OPTION_COMPARE},
     {"quick", no_argument, NULL, OPTION_QUICK},
     {"help", no_argument, NULL, OPTION_HELP},
@@ -91,6 +93,7 @@ static int takers(int id)
     case OPTION_JSON:
         return CHECK | BENCH;
     case OPTION_CSV:
+    case OPTION_REPORT:
     case OPTION_COMPARE:
     case OPTION_QUICK:
         return BENCH;
@@ -220,6 +223,12 @@ static enum status read_bounces(int id, const char *argument, int *max_bounces)
     return status;
 }
 
+static enum status read_text(const char *argument, const char **text)
+{
+    *text = argument;
+    return STATUS_DONE;
+}
+
 static enum status read_option(int id, const char *argument, struct options *options)
 {
     static const char *const backends[] = {"vulkan", "cpu"};
@@ -277,20 +286,17 @@ static enum status read_option(int id, const char *argument, struct options *opt
         options->vulkan.validate = true;
         break;
     case OPTION_STATS:
-        options->stats = argument;
-        break;
+        return read_text(argument, &options->stats);
     case OPTION_HEATMAP:
-        options->heatmap = argument;
-        break;
+        return read_text(argument, &options->heatmap);
     case OPTION_JSON:
-        options->json = argument;
-        break;
+        return read_text(argument, &options->json);
     case OPTION_CSV:
-        options->csv = argument;
-        break;
+        return read_text(argument, &options->csv);
+    case OPTION_REPORT:
+        return read_text(argument, &options->report);
     case OPTION_COMPARE:
-        options->compare = argument;
-        break;
+        return read_text(argument, &options->compare);
     case OPTION_QUICK:
         options->quick = true;
         break;

@@ -29,7 +29,7 @@ void progress_start(struct progress *progress, const char *label, uint64_t total
 
 void progress_advance(struct progress *progress, uint64_t amount)
 {
-    progress->done += amount;
+    progress->done = amount < progress->total - progress->done ? progress->done + amount : progress->total;
     double elapsed_ms = clock_ms() - progress->start_ms;
     if (!progress->enabled || elapsed_ms < 500 || progress->done == 0)
         return;
