@@ -6,7 +6,8 @@
 #include "markup.h"
 
 struct convergence_chart {
-    const struct chart_frame *frame;
+    struct chart_frame frame;
+    struct chart_legend legend;
     const json_t *values, *rmse;
     size_t count;
     double slope, slope_from, slope_to;
@@ -34,34 +35,33 @@ static double fitted_height(const struct convergence_chart *chart)
     return sum / count;
 }
 
-static void write_script(const struct convergence_chart *chart, FILE *script)
+static void write_script(struct convergence_chart *chart, FILE *script)
 {
-    const struct chart_frame *frame = chart->frame;
-    chart_frame_write(frame, &chart->x, &chart->y, script);
-    fprintf(script, "set key at screen %.9g,%.9g left top horizontal Left reverse samplen 1.5 width 1\n",
-            8.0 / frame->width, 1.0 - 4.0 / frame->height);
-    fputs("set xlabel \"samples N\" textcolor rgb \"#333333\"\n", script);
-    fprintf(script, "set label \"error (RMSE)\" at screen %.9g,%.9g left textcolor rgb \"#333333\"\n",
-            8.0 / frame->width, 1.0 - (frame->top - 1.1 * frame->font) / frame->height);
+    char fitted[32];
+    double height = fitted_height(chart);
+    bool has_fit = isfinite(chart->slope) && isfinite(height);
+    chart_legend_add(&chart->legend, "measured", "#222222", 7);
+    if (has_fit) {
+        snprintf(fitted, sizeof fitted, "fitted, N^{%.2f}", chart->slope);
+        chart_legend_add(&chart->legend, fitted, "#0072b2", CHART_LINE);
+        chart_legend_add(&chart->legend, "random, N^{-1/2}", "#777777", CHART_DASHES);
+    }
+    chart_frame_arrange(&chart->frame, &chart->legend, &chart->x, &chart->y);
+    chart_frame_write(&chart->frame, &chart->legend, &chart->x, &chart->y, script);
     fputs("$points << END\n", script);
     for (size_t i = 0; i < chart->count; i++)
         fprintf(script, "%.9g %.9g\n", number_in(chart->values, i),
                 log_axis_place(&chart->y, number_in(chart->rmse, i)));
-    fputs("END\nplot NaN notitle", script);
-    double height = fitted_height(chart);
-    if (isfinite(chart->slope) && isfinite(height)) {
+    fputs("END\nplot ", script);
+    if (has_fit) {
         double from = chart->slope_from, to = chart->slope_to, start = height + chart->slope * log(from);
-        fprintf(script,
-                ", [%.9g:%.9g] exp(%.9g - 0.5 * log(x / %.9g)) lt 1 dt (6,4) lc rgb \"#777777\" title "
-                "\"N^{-1/2}, random points\"",
-                from, to, start, from);
-        fprintf(script,
-                ", [%.9g:%.9g] exp(%.9g + %.9g * log(x)) lt 1 lw 1.5 lc rgb \"#0072b2\" title "
-                "\"fitted, N^{%.2f}\"",
-                from, to, height, chart->slope, chart->slope);
+        fprintf(script, "[%.9g:%.9g] exp(%.9g - 0.5 * log(x / %.9g)) dt (6,4) lc rgb \"#777777\", ", from, to,
+                start, from);
+        fprintf(script, "[%.9g:%.9g] exp(%.9g + %.9g * log(x)) dt 1 lw 1.5 lc rgb \"#0072b2\", ", from, to,
+                height, chart->slope);
     }
-    fprintf(script, ", $points using 1:2 with points pt 7 ps %g lc rgb \"#222222\" title \"measured\"\n",
-            0.05 * frame->font);
+    fprintf(script, "$points with points pt 7 ps %g lc rgb \"#222222\"\n",
+            CHART_MARK_SIZE * chart->frame.font);
 }
 
 static void write_overlay(const struct convergence_chart *chart, FILE *overlay)
@@ -72,7 +72,7 @@ static void write_overlay(const struct convergence_chart *chart, FILE *overlay)
         fprintf(overlay,
                 "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%g\" fill=\"none\" pointer-events=\"all\">"
                 "<title>N = %.0f: RMSE %s</title></circle>\n",
-                log_axis_pixel(&chart->x, n), log_axis_pixel(&chart->y, error), 0.6 * chart->frame->font, n,
+                log_axis_pixel(&chart->x, n), log_axis_pixel(&chart->y, error), 0.6 * chart->frame.font, n,
                 markup_error(error, number));
     }
 }
@@ -80,22 +80,20 @@ static void write_overlay(const struct convergence_chart *chart, FILE *overlay)
 enum status chart_convergence(const json_t *convergence, const struct chart_frame *frame, FILE *out)
 {
     struct convergence_chart chart = {
-        .frame = frame,
+        .frame = *frame,
         .values = json_object_get(convergence, "values"),
         .rmse = json_object_get(convergence, "rmse"),
         .slope = json_number_at(convergence, "slope"),
         .slope_from = json_number_at(convergence, "slope_from"),
         .slope_to = json_number_at(convergence, "slope_to"),
-        .x = {.name = 'x', .ticks = TICKS_POWERS_OF_FOUR},
-        .y = {.name = 'y', .ticks = TICKS_POWERS_OF_TEN},
+        .x = {.name = 'x', .title = "samples N", .ticks = TICKS_POWERS_OF_FOUR},
+        .y = {.name = 'y', .title = "error (RMSE)", .ticks = TICKS_POWERS_OF_TEN},
     };
     chart.count = json_array_size(chart.values);
     for (size_t i = 0; i < chart.count; i++) {
         log_axis_include(&chart.x, number_in(chart.values, i));
         log_axis_include(&chart.y, number_in(chart.rmse, i));
     }
-    chart_frame_span(frame, &chart.x);
-    chart_frame_span(frame, &chart.y);
     log_axis_finish(&chart.x);
     log_axis_finish(&chart.y);
 
@@ -104,5 +102,6 @@ enum status chart_convergence(const json_t *convergence, const struct chart_fram
         return STATUS_UNABLE;
     write_script(&chart, drawing.script);
     write_overlay(&chart, drawing.overlay);
-    return chart_drawing_end(&drawing, frame, "Error against the number of samples, both logarithmic.", out);
+    return chart_drawing_end(&drawing, &chart.frame, "Error against the number of samples, both logarithmic.",
+                             out);
 }

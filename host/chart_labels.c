@@ -35,11 +35,11 @@ static bool has_room(const struct label_placer *placer, struct box box)
 
 bool label_placer_put(struct label_placer *placer, double x, double y, const char *label, FILE *overlay)
 {
-    /* In units of the font; an anchor of 0 starts the text there, of 1 ends it. */
+    /* In units of the font; an anchor of 0 starts the text there, of 1 ends it. Not straight to the right:
+     * there runs the front. */
     static const struct {
         double x, y, anchor;
-    } places[] = {{0.7, 0.0, 0.0},   {0.5, -0.9, 0.0}, {-0.5, 0.9, 1.0}, {-0.7, 0.0, 1.0},
-                  {-0.5, -0.9, 1.0}, {0.5, 0.9, 0.0},  {0.4, -1.7, 0.0}, {-0.4, 1.7, 1.0}};
+    } places[] = {{0.4, -0.9, 0.0}, {-0.4, 0.9, 1.0}, {-0.7, 0.0, 1.0}, {0.4, 0.9, 0.0}, {-0.4, -0.9, 1.0}};
     const double font = placer->font, width = text_width(label, font);
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
         double left = x + places[i].x * font - places[i].anchor * width, middle = y + places[i].y * font;

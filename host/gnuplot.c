@@ -119,22 +119,26 @@ enum status gnuplot_check(void)
     return status;
 }
 
-/* Copies the text from start to end, with the prefix before each id and each reference to one. */
+/* Copies the text from start to end, with the prefix before each id and each reference to one, without what
+ * gnuplot calls its curves. */
 static void copy_prefixed(const char *start, const char *end, const char *prefix, FILE *out)
 {
     static const char *const before_ids[] = {" id=\"", " id='", "href='#", "href=\"#", "url(#"};
     while (start < end) {
-        size_t length = 1;
-        bool found = false;
-        for (size_t i = 0; i < sizeof before_ids / sizeof before_ids[0] && !found; i++) {
-            length = strlen(before_ids[i]);
-            found = strncmp(start, before_ids[i], length) == 0;
+        const char *title_end =
+            strncmp(start, "<title>", strlen("<title>")) == 0 ? strstr(start, "</title>") : NULL;
+        if (title_end) {
+            start = title_end + strlen("</title>");
+            continue;
         }
-        length = found ? length : 1;
-        fwrite(start, 1, length, out);
-        if (found)
+        size_t length = 0;
+        for (size_t i = 0; i < sizeof before_ids / sizeof before_ids[0] && length == 0; i++)
+            if (strncmp(start, before_ids[i], strlen(before_ids[i])) == 0)
+                length = strlen(before_ids[i]);
+        fwrite(start, 1, length > 0 ? length : 1, out);
+        if (length > 0)
             fputs(prefix, out);
-        start += length;
+        start += length > 0 ? length : 1;
     }
 }
 

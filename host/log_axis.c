@@ -50,7 +50,7 @@ static void write_tick(const struct log_axis *axis, double mantissa, int power, 
         return;
     if (!labelled)
         fprintf(script, ", \"\" %.9g 1", value);
-    else if (axis->ticks != TICKS_POWERS_OF_TEN)
+    else if (axis->ticks != TICKS_POWERS_OF_TEN && value > 0.9e-3 && value < 1.1e5)
         fprintf(script, ", \"%.9g\" %.9g", value, value);
     else if (mantissa == 1.0)
         fprintf(script, ", \"10^{%d}\" %.9g", power, value);
@@ -65,7 +65,7 @@ void log_axis_write(const struct log_axis *axis, FILE *script)
     double first = log(axis->low) / log(base), last = log(axis->high) / log(base);
     double pixels = fabs(log_axis_pixel(axis, axis->high) - log_axis_pixel(axis, axis->low)) / (last - first);
     int stride = (int)fmax(1.0, ceil(axis->label_pixels / pixels));
-    bool label_within = axis->ticks != TICKS_POWERS_OF_FOUR && pixels > 4.0 * axis->label_pixels;
+    bool label_within = axis->ticks != TICKS_POWERS_OF_FOUR && pixels > 5.5 * axis->label_pixels;
     fprintf(script, "set logscale %c\nset %crange [%.9g:%.9g]\nset %ctics (\"0\" %.9g, \"∞\" %.9g", name,
             name, axis->from, axis->to, name, axis->zero_at, axis->infinity_at);
     for (int power = (int)floor(first); power <= (int)ceil(last); power++) {
@@ -75,4 +75,11 @@ void log_axis_write(const struct log_axis *axis, FILE *script)
             write_tick(axis, mantissa, power, label_within && (mantissa == 2 || mantissa == 5), script);
     }
     fputs(")\n", script);
+    const double edges[] = {axis->low, axis->high};
+    for (int side = 0; side < 2; side++)
+        if (side == 0 ? axis->has_zero : axis->has_infinity)
+            fprintf(script,
+                    name == 'x' ? "set arrow from %.9g,graph 0 to %.9g,graph 1 %s\n"
+                                : "set arrow from graph 0,%.9g to graph 1,%.9g %s\n",
+                    edges[side], edges[side], "nohead back dt (2,3) lw 0.8 lc rgb \"#999999\"");
 }

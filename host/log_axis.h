@@ -7,7 +7,8 @@
 /* A logarithmic axis of a chart. Values that have no place on one, 0 and infinity, get a place of their own
  * outside the range of the others. */
 struct log_axis {
-    char name;           /* 'x' or 'y' */
+    char name; /* 'x' or 'y' */
+    const char *title;
     double start, end;   /* pixels, in SVG's coordinates */
     double label_pixels; /* room for one tick's label along the axis */
     enum { TICKS_POWERS_OF_TEN, TICKS_PLAIN, TICKS_POWERS_OF_FOUR } ticks;

@@ -34,6 +34,10 @@ const char *markup_error(double error, char buffer[MARKUP_NUMBER_SIZE])
         return strcpy(buffer, "0");
     if (!isfinite(error))
         return strcpy(buffer, "∞");
+    if (error >= 0.0995 && error < 999.5) {
+        snprintf(buffer, MARKUP_NUMBER_SIZE, "%.*f", error < 0.995 ? 2 : error < 9.95 ? 1 : 0, error);
+        return buffer;
+    }
     snprintf(buffer, MARKUP_NUMBER_SIZE, "%.1e", error); /* 1.2e-05 */
     char *sign = strchr(buffer, 'e') + 1;
     const char *digits = sign + 1 + strspn(sign + 1, "0");

@@ -74,20 +74,12 @@ static enum status write_speed_chart(const json_t *scene, size_t index, FILE *ou
     snprintf(narrow, sizeof narrow, "s%zu-narrow-", index);
     snprintf(rows, sizeof rows, "s%zu-p", index);
     const struct chart_frame frames[] = {
-        {.width = 1040,
-         .height = 600,
-         .font = 15,
-         .left = 62,
-         .right = 24,
-         .top = 66,
-         .bottom = 58,
-         .id = wide},
+        {.width = 1040, .height = 600, .font = 15, .left = 62, .right = 24, .bottom = 58, .id = wide},
         {.width = 370,
-         .height = 460,
+         .height = 480,
          .font = 13,
-         .left = 46,
+         .left = 50,
          .right = 14,
-         .top = 116,
          .bottom = 52,
          .narrow = true,
          .id = narrow},
@@ -125,14 +117,8 @@ static enum status write_convergence(const json_t *scene, size_t index, FILE *ou
         const json_t *entry = json_array_get(entries, i);
         char id[48];
         snprintf(id, sizeof id, "s%zu-c%zu-", index, i);
-        const struct chart_frame frame = {.width = 480,
-                                          .height = 400,
-                                          .font = 15,
-                                          .left = 58,
-                                          .right = 18,
-                                          .top = 104,
-                                          .bottom = 58,
-                                          .id = id};
+        const struct chart_frame frame = {
+            .width = 480, .height = 400, .font = 15, .left = 58, .right = 18, .bottom = 58, .id = id};
         fputs("<figure class=\"chart\">\n", out);
         status = chart_convergence(entry, &frame, out);
         fputs("<figcaption><code>--", out);
@@ -155,16 +141,19 @@ static enum status write_scene(const json_t *scene, size_t index, FILE *out)
 {
     fprintf(out, "<section id=\"s%zu\">\n<h2>", index);
     markup_text(out, json_text_at(scene, "scene"));
-    fprintf(out,
-            "</h2>\n<p class=\"quiet\">%.0f × %.0f pixels, %.0f bounces, %.0f light samples, %.0f samples a "
-            "pixel</p>\n",
-            json_number_at(scene, "width"), json_number_at(scene, "height"),
-            json_number_at(scene, "max_bounces"), json_number_at(scene, "light_samples"),
-            json_number_at(scene, "samples"));
+    fprintf(
+        out,
+        "</h2>\n<p class=\"quiet\">%.0f × %.0f pixels; bounces: %.0f, light samples: %.0f, samples a pixel: "
+        "%.0f</p>\n",
+        json_number_at(scene, "width"), json_number_at(scene, "height"), json_number_at(scene, "max_bounces"),
+        json_number_at(scene, "light_samples"), json_number_at(scene, "samples"));
     write_pictures(scene, out);
-    report_recommendations(scene, out);
-    enum status status = write_speed_chart(scene, index, out);
-    report_points(scene, index, out);
+    enum status status = STATUS_DONE;
+    if (json_array_size(json_object_get(scene, "points")) > 0) {
+        report_recommendations(scene, out);
+        status = write_speed_chart(scene, index, out);
+        report_points(scene, index, out);
+    }
     if (status == STATUS_DONE)
         status = write_convergence(scene, index, out);
     fputs("</section>\n", out);
@@ -204,7 +193,6 @@ enum status chart_write(const json_t *scene, const char *path)
                                              .font = 15,
                                              .left = 62,
                                              .right = 24,
-                                             .top = 104,
                                              .bottom = 58,
                                              .alone = true,
                                              .id = ""};

@@ -46,7 +46,7 @@ static void write_agreement_row(const json_t *scene, size_t index, FILE *out)
     write_error(out, rounding, "max");
     write_count(out, json_number_at(rounding, "unexplained"));
     fputs("<td>", out);
-    markup_text(out, rounding ? json_text_at(rounding, "against") : "–");
+    markup_text(out, json_is_object(rounding) ? json_text_at(rounding, "against") : "–");
     fputs("</td></tr>\n", out);
 }
 
@@ -81,8 +81,9 @@ void report_recommendations(const json_t *scene, FILE *out)
     for (size_t i = 0; i < json_array_size(recommendations); i++) {
         const json_t *recommendation = json_array_get(recommendations, i);
         const json_t *options = json_object_get(recommendation, "options");
-        fprintf(out, "<tr><th scope=\"row\">%g</th><td class=\"text\">",
-                json_number_at(recommendation, "error"));
+        double power = log10(json_number_at(recommendation, "error"));
+        fprintf(out, "<tr><th scope=\"row\">10<sup>%s%.4g</sup></th><td class=\"text\">",
+                power < 0.0 ? "−" : "", fabs(power));
         if (!json_is_string(options)) {
             fputs("none measured", out);
         } else if (json_string_length(options) == 0) {
@@ -115,27 +116,35 @@ static void write_points_head(bool energy, FILE *out)
           "<th scope=\"colgroup\" colspan=\"4\">rays, millions</th>",
           out);
     if (energy)
-        fputs("<th scope=\"col\" rowspan=\"2\">energy, J</th>", out);
-    fputs(
-        "</tr>\n<tr><th scope=\"col\">median</th><th scope=\"col\">quartiles</th><th scope=\"col\">runs</th>"
-        "<th scope=\"col\">first</th><th scope=\"col\">setup</th><th scope=\"col\">RMSE</th>"
-        "<th scope=\"col\">max</th><th scope=\"col\">relative, median</th><th scope=\"col\">99.9 %</th>"
-        "<th scope=\"col\">pixels off</th><th scope=\"col\">primary</th><th scope=\"col\">secondary</th>"
-        "<th scope=\"col\">shadow</th><th scope=\"col\">a second</th></tr>\n</thead>\n",
-        out);
+        fputs("<th scope=\"col\" rowspan=\"2\">energy,<br/>J</th>", out);
+    fputs("<th scope=\"col\" rowspan=\"2\" class=\"text\">options</th></tr>\n", out);
+    static const char *const columns[] = {
+        "median",
+        "quartiles",
+        "runs",
+        "first",
+        "setup",
+        "RMSE",
+        "max",
+        "relative,<br/>median",
+        "relative,<br/>99.9 %",
+        "pixels<br/>off",
+        "primary",
+        "secondary",
+        "shadow",
+        "a second",
+    };
+    fputs("<tr>", out);
+    for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
+        fprintf(out, "<th scope=\"col\">%s</th>", columns[i]);
+    fputs("</tr>\n</thead>\n", out);
 }
 
-static void write_settings(const json_t *point, FILE *out)
+static void write_label(const json_t *point, FILE *out)
 {
-    const char *label = json_text_at(point, "label"), *options = json_text_at(point, "options");
     bool pareto = json_is_true(json_object_get(point, "pareto"));
     fprintf(out, "<th scope=\"row\">%s", pareto ? "<span class=\"front\">●</span> " : "");
-    markup_text(out, label);
-    if (!strstr(label, options)) {
-        fputs(" <code>", out);
-        markup_text(out, options);
-        fputs("</code>", out);
-    }
+    markup_text(out, json_text_at(point, "label"));
     fputs("</th>", out);
 }
 
@@ -147,14 +156,14 @@ static void write_quartiles(const json_t *point, FILE *out)
         write_cell(out, "–");
         return;
     }
-    fprintf(out, "<td>%s to %s</td>", markup_number(json_number_value(json_array_get(quartiles, 0)), first),
+    fprintf(out, "<td>%s–%s</td>", markup_number(json_number_value(json_array_get(quartiles, 0)), first),
             markup_number(json_number_value(json_array_get(quartiles, 1)), third));
 }
 
 static void write_point(const json_t *point, bool energy, FILE *out)
 {
     const json_t *error = json_object_get(point, "error"), *rays = json_object_get(point, "rays");
-    write_settings(point, out);
+    write_label(point, out);
     write_number(out, json_number_at(point, "time_ms"));
     write_quartiles(point, out);
     write_count(out, json_number_at(point, "runs"));
@@ -171,7 +180,9 @@ static void write_point(const json_t *point, bool energy, FILE *out)
     write_number(out, 1e-6 * json_number_at(point, "rays_per_second"));
     if (energy)
         write_number(out, json_number_at(point, "energy_joules"));
-    fputs("</tr>\n", out);
+    fputs("<td class=\"text\"><code>", out);
+    markup_text(out, json_text_at(point, "options"));
+    fputs("</code></td></tr>\n", out);
 }
 
 void report_points(const json_t *scene, size_t index, FILE *out)
