@@ -52,15 +52,15 @@ static void write_script(struct convergence_chart *chart, FILE *script)
     for (size_t i = 0; i < chart->count; i++)
         fprintf(script, "%.9g %.9g\n", number_in(chart->values, i),
                 log_axis_place(&chart->y, number_in(chart->rmse, i)));
-    fputs("END\nplot ", script);
+    fputs("END\nplot NaN", script); /* a range after plot itself would be the axis' */
     if (has_fit) {
         double from = chart->slope_from, to = chart->slope_to, start = height + chart->slope * log(from);
-        fprintf(script, "[%.9g:%.9g] exp(%.9g - 0.5 * log(x / %.9g)) dt (6,4) lc rgb \"#777777\", ", from, to,
+        fprintf(script, ", [%.9g:%.9g] exp(%.9g - 0.5 * log(x / %.9g)) dt (6,4) lc rgb \"#777777\"", from, to,
                 start, from);
-        fprintf(script, "[%.9g:%.9g] exp(%.9g + %.9g * log(x)) dt 1 lw 1.5 lc rgb \"#0072b2\", ", from, to,
+        fprintf(script, ", [%.9g:%.9g] exp(%.9g + %.9g * log(x)) dt 1 lw 1.5 lc rgb \"#0072b2\"", from, to,
                 height, chart->slope);
     }
-    fprintf(script, "$points with points pt 7 ps %g lc rgb \"#222222\"\n",
+    fprintf(script, ", $points with points pt 7 ps %g lc rgb \"#222222\"\n",
             CHART_MARK_SIZE * chart->frame.font);
 }
 

@@ -173,7 +173,7 @@ static void write_script(const struct speed_chart *chart, FILE *script)
         for (int fast = 0; fast < 2; fast++)
             write_family(chart, family, fast, script);
 
-    fputs("plot NaN notitle", script); /* what follows begins with a comma */
+    fputs("plot NaN", script); /* what follows begins with a comma */
     for (int own_truth = 0; own_truth < 2; own_truth++)
         if (has_front(chart, own_truth))
             fprintf(script, ", $front%d with steps lw 1.5 dt %s lc rgb \"%s\"", own_truth,

@@ -65,14 +65,11 @@ const char *markup_number(double number, char buffer[MARKUP_NUMBER_SIZE])
 {
     if (!(fabs(number) < 1e15))
         return strcpy(buffer, "–");
+    if (number > 0.0 && number < 1e-3)
+        return markup_error(number, buffer);
     char digits[MARKUP_NUMBER_SIZE];
-    int before_point = number == 0.0 ? 1 : (int)floor(log10(fabs(number))) + 1;
-    int after_point = number == 0.0 ? 0 : 3 - before_point;
-    snprintf(digits, sizeof digits, "%.*f",
-             after_point < 0    ? 0
-             : after_point > 12 ? 12
-                                : after_point,
-             number);
+    int before_point = number == 0.0 ? 3 : (int)floor(log10(fabs(number))) + 1;
+    snprintf(digits, sizeof digits, "%.*f", before_point < 3 ? 3 - before_point : 0, number);
     return group_thousands(digits, buffer);
 }
 

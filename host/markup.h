@@ -13,8 +13,8 @@ enum { MARKUP_NUMBER_SIZE = 48 };
 /* An error to two digits, "1.2e-5"; "0" is exact, and one that is no number is infinite. Returns buffer. */
 const char *markup_error(double error, char buffer[MARKUP_NUMBER_SIZE]);
 
-/* Three digits or all that stand before the point, thousands set apart; a dash for what is no number.
- * Returns buffer. */
+/* Three digits or all that stand before the point, thousands set apart; below 0.001 as an error; a dash for
+ * what is no number. Returns buffer. */
 const char *markup_number(double number, char buffer[MARKUP_NUMBER_SIZE]);
 
 /* A count, thousands set apart; a dash for what is no number. Returns buffer. */

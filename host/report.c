@@ -118,7 +118,7 @@ static enum status write_convergence(const json_t *scene, size_t index, FILE *ou
         char id[48];
         snprintf(id, sizeof id, "s%zu-c%zu-", index, i);
         const struct chart_frame frame = {
-            .width = 480, .height = 400, .font = 15, .left = 58, .right = 18, .bottom = 58, .id = id};
+            .width = 400, .height = 350, .font = 15, .left = 58, .right = 18, .bottom = 58, .id = id};
         fputs("<figure class=\"chart\">\n", out);
         status = chart_convergence(entry, &frame, out);
         fputs("<figcaption><code>--", out);
@@ -130,7 +130,7 @@ static enum status write_convergence(const json_t *scene, size_t index, FILE *ou
                     slope < 0.0 ? "−" : "", fabs(slope), json_number_at(entry, "slope_from"),
                     json_number_at(entry, "slope_to"));
         else
-            fputs("too few errors above 0 to fit a slope", out);
+            fputs("too few points to fit a slope to", out);
         fputs("</figcaption>\n</figure>\n", out);
     }
     fputs("</div>\n", out);

@@ -1,5 +1,5 @@
-/* write_report DOCUMENT PAGE.html CHART.svg: writes the report of a bench document, and the chart of its first
- * scene. */
+/* write_report DOCUMENT PAGE.html CHART.svg: writes the report of a bench document, and the chart of its
+ * first scene. */
 #include <stdio.h>
 
 #include "report.h"
