@@ -72,7 +72,7 @@ void chart_frame_write(const struct chart_frame *frame, const struct chart_legen
             1.0 - frame->top / frame->height, frame->bottom / frame->height);
     fputs(
         "set border 3 lc rgb \"#666666\" lw 0.8\nset tics nomirror scale 0.6,0.3 textcolor rgb \"#333333\"\n"
-        "set grid xtics ytics lt 1 lc rgb \"#e2e2e2\" lw 0.6\nset errorbars small\nunset key\n",
+        "set grid xtics ytics lt 1 lc rgb \"#d8d8d8\" lw 0.6\nset errorbars small\nunset key\n",
         script);
     fprintf(script, "set label \"%s\" at screen %.9g,%.9g right textcolor rgb \"#333333\"\n", x->title,
             1.0 - frame->right / frame->width, 0.7 * frame->font / frame->height);

@@ -64,6 +64,13 @@ static bool has_own_truth(const struct speed_point *point)
     return strcmp(families[point->family].family, "samples") == 0;
 }
 
+static double quartile(const struct speed_point *point, size_t index)
+{
+    const json_t *value = json_array_get(json_object_get(point->json, "time_quartiles_ms"), index);
+    double time_ms = json_number_value(value);
+    return time_ms > 0.0 ? time_ms : point->time_ms;
+}
+
 static void read_points(const json_t *points, struct speed_chart *chart)
 {
     for (size_t i = 0; i < json_array_size(points); i++) {
@@ -84,19 +91,14 @@ static void read_points(const json_t *points, struct speed_chart *chart)
                strcmp(json_text_at(json, "family"), families[point.family].family) != 0)
             point.family++;
         log_axis_include(&chart->x, point.error);
+        log_axis_include(&chart->y, quartile(&point, 0));
         log_axis_include(&chart->y, point.time_ms);
+        log_axis_include(&chart->y, quartile(&point, 1));
         chart->points[chart->count++] = point;
     }
     qsort(chart->points, chart->count, sizeof chart->points[0], compare_points);
     log_axis_finish(&chart->x);
     log_axis_finish(&chart->y);
-}
-
-static double quartile(const struct speed_point *point, size_t index)
-{
-    const json_t *value = json_array_get(json_object_get(point->json, "time_quartiles_ms"), index);
-    double time_ms = json_number_value(value);
-    return time_ms > 0.0 ? time_ms : point->time_ms;
 }
 
 static bool is_on_front(const struct speed_point *point, bool own_truth)

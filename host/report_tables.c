@@ -44,6 +44,7 @@ static void write_agreement_row(const json_t *scene, size_t index, FILE *out)
     write_error(out, rounding, "p99");
     write_error(out, rounding, "p9999");
     write_error(out, rounding, "max");
+    write_count(out, json_number_at(rounding, "pixels"));
     write_count(out, json_number_at(rounding, "unexplained"));
     fputs("<td>", out);
     markup_text(out, json_is_object(rounding) ? json_text_at(rounding, "against") : "–");
@@ -55,10 +56,11 @@ void report_agreement(const json_t *scenes, FILE *out)
     fputs("<section>\n<h2>Device against reference</h2>\n<div class=\"scroll\">\n<table>\n<thead>\n"
           "<tr><th scope=\"col\" rowspan=\"2\">scene</th><th scope=\"colgroup\" colspan=\"2\">pixels</th>"
           "<th scope=\"colgroup\" colspan=\"4\">rounding error, relative</th>"
-          "<th scope=\"colgroup\" colspan=\"2\">judged</th></tr>\n"
+          "<th scope=\"colgroup\" colspan=\"3\">judged</th></tr>\n"
           "<tr><th scope=\"col\">all</th><th scope=\"col\">differing</th><th scope=\"col\">median</th>"
           "<th scope=\"col\">99 %</th><th scope=\"col\">99.99 %</th><th scope=\"col\">max</th>"
-          "<th scope=\"col\">unexplained</th><th scope=\"col\">against</th></tr>\n</thead>\n<tbody>\n",
+          "<th scope=\"col\">pixels</th><th scope=\"col\">unexplained</th><th "
+          "scope=\"col\">against</th></tr>\n</thead>\n<tbody>\n",
           out);
     for (size_t i = 0; i < json_array_size(scenes); i++)
         write_agreement_row(json_array_get(scenes, i), i, out);
@@ -76,15 +78,16 @@ void report_recommendations(const json_t *scene, FILE *out)
         return;
     fputs("<h3>Fastest settings with 99.9 % of the pixels within an error</h3>\n"
           "<div class=\"scroll\">\n<table>\n<thead><tr>"
-          "<th scope=\"col\">error at most</th><th scope=\"col\" class=\"text\">options</th>"
-          "<th scope=\"col\">time, ms</th></tr></thead>\n<tbody>\n",
+          "<th scope=\"col\">error at most</th><th scope=\"col\">time, ms</th>"
+          "<th scope=\"col\" class=\"text\">options</th></tr></thead>\n<tbody>\n",
           out);
     for (size_t i = 0; i < json_array_size(recommendations); i++) {
         const json_t *recommendation = json_array_get(recommendations, i);
         const json_t *options = json_object_get(recommendation, "options");
         double power = log10(json_number_at(recommendation, "error"));
-        fprintf(out, "<tr><th scope=\"row\">10<sup>%s%.4g</sup></th><td class=\"text\">",
-                power < 0.0 ? "−" : "", fabs(power));
+        fprintf(out, "<tr><th scope=\"row\">10<sup>%s%.4g</sup></th>", power < 0.0 ? "−" : "", fabs(power));
+        write_number(out, json_number_at(recommendation, "time_ms"));
+        fputs("<td class=\"text\">", out);
         if (!json_is_string(options)) {
             fputs("none measured", out);
         } else if (json_string_length(options) == 0) {
@@ -94,9 +97,7 @@ void report_recommendations(const json_t *scene, FILE *out)
             markup_text(out, json_string_value(options));
             fputs("</code>", out);
         }
-        fputs("</td>", out);
-        write_number(out, json_number_at(recommendation, "time_ms"));
-        fputs("</tr>\n", out);
+        fputs("</td></tr>\n", out);
     }
     fputs("</tbody>\n</table>\n</div>\n", out);
 }
