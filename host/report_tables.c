@@ -59,15 +59,15 @@ void report_agreement(const json_t *scenes, FILE *out)
           "<th scope=\"colgroup\" colspan=\"3\">judged</th></tr>\n"
           "<tr><th scope=\"col\">all</th><th scope=\"col\">differing</th><th scope=\"col\">median</th>"
           "<th scope=\"col\">99 %</th><th scope=\"col\">99.99 %</th><th scope=\"col\">max</th>"
-          "<th scope=\"col\">pixels</th><th scope=\"col\">unexplained</th><th "
-          "scope=\"col\">against</th></tr>\n</thead>\n<tbody>\n",
+          "<th scope=\"col\">pixels</th><th scope=\"col\">unexplained</th>"
+          "<th scope=\"col\">against</th></tr>\n</thead>\n<tbody>\n",
           out);
     for (size_t i = 0; i < json_array_size(scenes); i++)
         write_agreement_row(json_array_get(scenes, i), i, out);
-    fputs("</tbody>\n</table>\n</div>\n<p class=\"quiet\">Differing: pixels in which device and reference, "
-          "both in "
-          "float, do not have the same bits. Unexplained: pixels farther from the reference in the precision "
-          "named last than the analysis of rounding allows.</p>\n</section>\n",
+    fputs("</tbody>\n</table>\n</div>\n<p class=\"quiet\">"
+          "Differing: pixels in which device and reference, both in float, do not have the same bits. "
+          "Unexplained: pixels farther from the reference in the precision named last "
+          "than the analysis of rounding allows.</p>\n</section>\n",
           out);
 }
 
