@@ -3,23 +3,18 @@
 #include <math.h>
 #include <string.h>
 
+#include "json_value.h"
 #include "statistics.h"
 
 enum { MAX_POINTS = 256 };
 
 static const double standard_errors = 4, least_change = 0.05, printing_error = 1e-6;
 
-static const char *text_of(const json_t *object, const char *key)
-{
-    const char *text = json_string_value(json_object_get(object, key));
-    return text ? text : "";
-}
-
 /* Null stands for what is not finite. */
 static double number_of(const json_t *object, const char *key)
 {
-    const json_t *value = json_object_get(object, key);
-    return json_is_number(value) ? json_number_value(value) : INFINITY;
+    double value = json_number_at(object, key);
+    return isnan(value) ? INFINITY : value;
 }
 
 enum status bench_document_read(const char *path, json_t **document)
@@ -44,7 +39,7 @@ enum status bench_document_read(const char *path, json_t **document)
 
 static bool same_text(const json_t *a, const json_t *b, const char *key)
 {
-    return strcmp(text_of(a, key), text_of(b, key)) == 0;
+    return strcmp(json_text_at(a, key), json_text_at(b, key)) == 0;
 }
 
 static const json_t *find_scene(const json_t *document, const json_t *like)
@@ -114,9 +109,10 @@ struct comparing {
 static void print_change(const struct comparing *comparing, const json_t *point, const char *what,
                          double old_value, double new_value, const char *unit)
 {
-    const char *options = text_of(point, "options");
-    fprintf(comparing->stream, "%s: %s: %s: %.3g%s, was %.3g%s\n", text_of(comparing->new_scene, "scene"),
-            *options ? options : "as the scene says", what, new_value, unit, old_value, unit);
+    const char *options = json_text_at(point, "options");
+    fprintf(comparing->stream, "%s: %s: %s: %.3g%s, was %.3g%s\n",
+            json_text_at(comparing->new_scene, "scene"), *options ? options : "as the scene says", what,
+            new_value, unit, old_value, unit);
 }
 
 static void compare_times(struct comparing *comparing, const json_t *old, const json_t *new)
@@ -169,7 +165,7 @@ static void compare_scenes(struct comparing *comparing)
     size_t i;
     comparing->old_typical = typical_spread(comparing->old_scene);
     comparing->new_typical = typical_spread(comparing->new_scene);
-    const char *name = text_of(comparing->new_scene, "scene");
+    const char *name = json_text_at(comparing->new_scene, "scene");
     bool same_size = number_of(comparing->old_scene, "width") == number_of(comparing->new_scene, "width") &&
                      number_of(comparing->old_scene, "height") == number_of(comparing->new_scene, "height");
     if (!same_size)
@@ -181,7 +177,7 @@ static void compare_scenes(struct comparing *comparing)
     json_array_foreach(json_object_get(comparing->new_scene, "points"), i, point)
     {
         const json_t *old = same_size ? find_point(comparing->old_scene, point) : NULL;
-        bool filtered = strcmp(text_of(point, "family"), "samples") == 0;
+        bool filtered = strcmp(json_text_at(point, "family"), "samples") == 0;
         if (!old)
             continue;
         ++comparing->compared;
@@ -209,8 +205,8 @@ static bool same_machine(const json_t *old, const json_t *new, FILE *stream)
                     (long long)json_integer_value(now), (long long)json_integer_value(before));
         else
             fprintf(stream, "another machine: %s %s, was %s\n", keys[i],
-                    now ? text_of(new_machine, keys[i]) : "none",
-                    before ? text_of(old_machine, keys[i]) : "none");
+                    now ? json_text_at(new_machine, keys[i]) : "none",
+                    before ? json_text_at(old_machine, keys[i]) : "none");
         same = false;
     }
     if (!same)
@@ -231,7 +227,7 @@ enum status bench_compare(const json_t *old, const json_t *new, FILE *stream)
         if (comparing.old_scene)
             compare_scenes(&comparing);
         else
-            fprintf(stream, "%s: not measured before\n", text_of(scene, "scene"));
+            fprintf(stream, "%s: not measured before\n", json_text_at(scene, "scene"));
     }
     if (comparing.compared == 0) {
         log_error("--compare: the earlier bench has no scene, size and setting in common with this one");

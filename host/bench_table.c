@@ -3,25 +3,20 @@
 #include <math.h>
 #include <string.h>
 
+#include "json_value.h"
 #include "output_file.h"
-
-static const char *text_of(const json_t *object, const char *key)
-{
-    const char *text = json_string_value(json_object_get(object, key));
-    return text ? text : "";
-}
 
 /* Null stands for what is not finite. */
 static double number_of(const json_t *object, const char *key)
 {
-    const json_t *value = json_object_get(object, key);
-    return json_is_number(value) ? json_number_value(value) : INFINITY;
+    double value = json_number_at(object, key);
+    return isnan(value) ? INFINITY : value;
 }
 
 static void print_point(const json_t *point, int options_width, FILE *stream)
 {
     const json_t *error = json_object_get(point, "error"), *quartiles;
-    const char *options = text_of(point, "options");
+    const char *options = json_text_at(point, "options");
     quartiles = json_object_get(point, "time_quartiles_ms");
     double spread =
         (json_number_value(json_array_get(quartiles, 1)) - json_number_value(json_array_get(quartiles, 0))) /
@@ -42,18 +37,18 @@ static void print_points(const json_t *scene, bool filtered, FILE *stream)
     int width = (int)strlen("(as the scene says)"), count = 0;
     json_array_foreach(points, i, point)
     {
-        int length = (int)strlen(text_of(point, "options"));
+        int length = (int)strlen(json_text_at(point, "options"));
         width = length > width ? length : width;
-        count += (strcmp(text_of(point, "family"), "samples") == 0) == filtered;
+        count += (strcmp(json_text_at(point, "family"), "samples") == 0) == filtered;
     }
     if (count == 0)
         return;
-    fprintf(stream, "\nagainst %s\n", text_of(scene, filtered ? "truth_samples" : "truth"));
+    fprintf(stream, "\nagainst %s\n", json_text_at(scene, filtered ? "truth_samples" : "truth"));
     fprintf(stream, "  %-*s %9s %7s %8s  %8s %8s %8s %8s %8s %8s\n", width, "", "time", "+-", "Mrays/s",
             "max", "RMSE", "99.9 %", "relative", "99.9 %", "8-bit");
     json_array_foreach(points, i, point)
     {
-        if ((strcmp(text_of(point, "family"), "samples") == 0) == filtered)
+        if ((strcmp(json_text_at(point, "family"), "samples") == 0) == filtered)
             print_point(point, width, stream);
     }
 }
@@ -67,7 +62,7 @@ static void print_convergence(const json_t *scene, FILE *stream)
         double slope = number_of(family, "slope");
         if (isfinite(slope))
             fprintf(stream, "RMSE falls as N^%.2f with %s from %lld to %lld\n", slope,
-                    text_of(family, "family"),
+                    json_text_at(family, "family"),
                     (long long)json_integer_value(json_object_get(family, "slope_from")),
                     (long long)json_integer_value(json_object_get(family, "slope_to")));
     }
@@ -95,7 +90,7 @@ void bench_print_scene(const json_t *scene, FILE *stream)
     const json_t *agreement = json_object_get(scene, "agreement"),
                  *rounding = json_object_get(scene, "rounding");
     fprintf(stream, "%s: %lldx%lld; times in ms: median and half the distance of the quartiles; errors in\n",
-            text_of(scene, "scene"), (long long)json_integer_value(json_object_get(scene, "width")),
+            json_text_at(scene, "scene"), (long long)json_integer_value(json_object_get(scene, "width")),
             (long long)json_integer_value(json_object_get(scene, "height")));
     fputs("linear radiance: largest, RMSE and of 99.9 % of the pixels; relative: of 50 % and 99.9 %; 8-bit:\n"
           "pixels off by more than a step; * nothing is both as fast and as right\n",

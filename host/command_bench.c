@@ -6,13 +6,15 @@
 #include "bench_document.h"
 #include "bench_scene.h"
 #include "bench_table.h"
+#include "gnuplot.h"
 #include "json_file.h"
 #include "output_file.h"
+#include "report.h"
 
 static enum status check_outputs(const struct options *options)
 {
-    const char *const paths[] = {options->json, options->csv};
-    enum status status = STATUS_DONE;
+    const char *const paths[] = {options->json, options->csv, options->report, options->chart};
+    enum status status = options->report || options->chart ? gnuplot_check() : STATUS_DONE;
     for (size_t i = 0; i < sizeof paths / sizeof *paths && status == STATUS_DONE; ++i)
         if (paths[i])
             status = output_file_check(paths[i]);
@@ -41,8 +43,18 @@ static enum status measure(const struct options *options, struct vulkan_context 
 
 static enum status deliver(const struct options *options, json_t *document, const json_t *old)
 {
+    json_t *scenes = json_object_get(document, "scenes"), *scene;
     enum status status = STATUS_DONE;
-    if (options->csv)
+    size_t i;
+    if (options->report)
+        status = report_write(document, options->report);
+    json_array_foreach(scenes, i, scene)
+    {
+        json_object_del(scene, "pictures"); /* for the report alone */
+    }
+    if (status == STATUS_DONE && options->chart)
+        status = chart_write(json_array_get(scenes, 0), options->chart);
+    if (status == STATUS_DONE && options->csv)
         status = bench_csv_write(document, options->csv);
     if (status == STATUS_DONE && options->json)
         status = json_write(json_incref(document), options->json);

@@ -40,6 +40,7 @@ enum option_id {
     OPTION_JSON,
     OPTION_CSV,
     OPTION_REPORT,
+    OPTION_CHART,
     OPTION_COMPARE,
     OPTION_QUICK,
     OPTION_HELP,
@@ -69,6 +70,7 @@ static const struct option long_options[] = {
     {"json", required_argument, NULL, OPTION_JSON},
     {"csv", required_argument, NULL, OPTION_CSV},
     {"report", required_argument, NULL, OPTION_REPORT},
+    {"chart", required_argument, NULL, OPTION_CHART},
     {"compare", required_argument, NULL, OPTION_COMPARE},
     {"quick", no_argument, NULL, OPTION_QUICK},
     {"help", no_argument, NULL, OPTION_HELP},
@@ -94,6 +96,7 @@ static int takers(int id)
         return CHECK | BENCH;
     case OPTION_CSV:
     case OPTION_REPORT:
+    case OPTION_CHART:
     case OPTION_COMPARE:
     case OPTION_QUICK:
         return BENCH;
@@ -295,6 +298,8 @@ static enum status read_option(int id, const char *argument, struct options *opt
         return read_text(argument, &options->csv);
     case OPTION_REPORT:
         return read_text(argument, &options->report);
+    case OPTION_CHART:
+        return read_text(argument, &options->chart);
     case OPTION_COMPARE:
         return read_text(argument, &options->compare);
     case OPTION_QUICK:
@@ -337,6 +342,8 @@ static enum status check_consistency(const struct options *options)
         problem = "--max-error does not go with --against, which judges rounding alone";
     else if (options->heatmap && options->scene_count > 1)
         problem = "--heatmap takes one scene file";
+    else if (options->chart && options->scene_count > 1)
+        problem = "--chart takes one scene file";
     else if (options->heatmap && image_format_of(options->heatmap) != IMAGE_FORMAT_PNG)
         problem = "--heatmap writes a .png";
     if (!problem)
