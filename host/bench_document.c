@@ -23,7 +23,7 @@ static json_t *number(double value)
 /* The points that share a truth, as arrays of the same length. */
 struct selection {
     size_t count, index[BENCH_MAX_SETTINGS];
-    double times[BENCH_MAX_SETTINGS], rmse[BENCH_MAX_SETTINGS], absolute_999[BENCH_MAX_SETTINGS];
+    double times[BENCH_MAX_SETTINGS], errors[BENCH_MAX_SETTINGS]; /* within which 99.9 % of the pixels are */
 };
 
 static struct selection select_points(const struct bench_point *points, size_t count, bool filtered)
@@ -34,8 +34,7 @@ static struct selection select_points(const struct bench_point *points, size_t c
             continue;
         selection.index[selection.count] = i;
         selection.times[selection.count] = bench_point_times(&points[i]).median;
-        selection.rmse[selection.count] = points[i].error.rmse;
-        selection.absolute_999[selection.count++] = points[i].error.absolute_999;
+        selection.errors[selection.count++] = points[i].error.absolute_999;
     }
     return selection;
 }
@@ -45,7 +44,7 @@ void bench_mark_pareto(struct bench_point *points, size_t count)
     for (int filtered = 0; filtered < 2; ++filtered) {
         struct selection selection = select_points(points, count, filtered);
         bool front[BENCH_MAX_SETTINGS];
-        pareto_front(selection.times, selection.rmse, selection.count, front);
+        pareto_front(selection.times, selection.errors, selection.count, front);
         for (size_t i = 0; i < selection.count; ++i)
             points[selection.index[i]].pareto = front[i];
     }
@@ -117,7 +116,7 @@ static json_t *describe_recommendations(const struct bench_result *result)
     struct selection selection = select_points(result->points, result->count, false);
     static const double errors[] = {1e-2, 1e-3, 1e-4, 1e-5};
     for (size_t i = 0; i < sizeof errors / sizeof *errors; ++i) {
-        size_t best = fastest_within(selection.times, selection.absolute_999, selection.count, errors[i]);
+        size_t best = fastest_within(selection.times, selection.errors, selection.count, errors[i]);
         json_t *line = json_pack("{s:f, s:n, s:n}", "error", errors[i], "options", "time_ms");
         if (best < selection.count) {
             const struct bench_setting *setting = &result->points[selection.index[best]].setting;

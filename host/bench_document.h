@@ -22,7 +22,9 @@ struct bench_result {
     bool meters_device; /* joules are the device's, too */
 };
 
-/* Marks the points that nothing beats in both time and RMSE among those with the same truth. */
+/* Marks the points that nothing with the same truth beats in both time and error. The error is that
+ * which 99.9 % of the pixels are within: of a picture with few ill-conditioned pixels (light that just grazes
+ * an edge), RMSE tells only of those. */
 void bench_mark_pareto(struct bench_point *points, size_t count);
 
 /* The document's head, its list of scenes empty. NULL without memory, as below. */

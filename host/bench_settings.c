@@ -23,7 +23,8 @@ __attribute__((format(printf, 4, 5))) static void append(struct list *list, stru
         return;
     struct bench_setting *place = &list->settings[list->count++];
     *place = setting;
-    snprintf(place->label, sizeof place->label, "%s%s", label, setting.fast ? ", fast" : "");
+    snprintf(place->label, sizeof place->label, "%s%s%s", label, *label && setting.fast ? ", " : "",
+             setting.fast ? "fast" : "");
     va_list arguments;
     va_start(arguments, options);
     int length = vsnprintf(place->options, sizeof place->options, options, arguments);
@@ -41,7 +42,7 @@ static void append_modes(struct list *list)
         fast.fast = true;
         wide.precision = PRECISION_DOUBLE;
         append(list, device, "exact", "%s", "");
-        append(list, fast, "float", "--fast");
+        append(list, fast, "", "--fast");
         if (list->choice->has_float64)
             append(list, wide, "double", "--precision double");
     }

@@ -93,7 +93,7 @@ void bench_print_scene(const json_t *scene, FILE *stream)
             json_text_at(scene, "scene"), (long long)json_integer_value(json_object_get(scene, "width")),
             (long long)json_integer_value(json_object_get(scene, "height")));
     fputs("linear radiance: largest, RMSE and of 99.9 % of the pixels; relative: of 50 % and 99.9 %; 8-bit:\n"
-          "pixels off by more than a step; * nothing is both as fast and as right\n",
+          "pixels off by more than a step. * marks what nothing beats in both time and the error of 99.9 %\n",
           stream);
     print_points(scene, false, stream);
     print_points(scene, true, stream);

@@ -78,7 +78,7 @@ static void read_points(const json_t *points, struct speed_chart *chart)
         struct speed_point point = {
             .json = json,
             .row = i,
-            .error = json_number_at(json_object_get(json, "error"), "rmse"),
+            .error = json_number_at(json_object_get(json, "error"), "absolute_999"),
             .time_ms = json_number_at(json, "time_ms"),
             .fast = strcmp(json_text_at(json, "mode"), "fast") == 0,
             .pareto = json_is_true(json_object_get(json, "pareto")),
@@ -201,8 +201,9 @@ static void write_hover(const struct speed_chart *chart, const struct speed_poin
     markup_text(overlay, json_text_at(point->json, "label"));
     fprintf(overlay, "\n%s ms", markup_number(point->time_ms, number));
     fprintf(overlay, " (quartiles %s", markup_number(quartile(point, 0), number));
-    fprintf(overlay, " to %s)\nRMSE ", markup_number(quartile(point, 1), number));
-    fprintf(overlay, "%s, max error ", markup_error(point->error, number));
+    fprintf(overlay, " to %s)\n99.9 %% of the pixels within ", markup_number(quartile(point, 1), number));
+    fprintf(overlay, "%s, RMSE ", markup_error(point->error, number));
+    fprintf(overlay, "%s, max error ", markup_error(json_number_at(error, "rmse"), number));
     fputs(markup_error(json_number_at(error, "max"), number), overlay);
     fputs(point->pareto ? "\non the Pareto front</title></circle>" : "</title></circle>", overlay);
     fputs(chart->frame.alone ? "\n" : "</a>\n", overlay);
@@ -249,7 +250,9 @@ enum status chart_speed(const json_t *scene, const struct chart_frame *frame, co
         .frame = *frame,
         .row_prefix = row_prefix,
         .points = calloc(json_array_size(points) + 1, sizeof(struct speed_point)),
-        .x = {.name = 'x', .title = "error (RMSE, linear radiance)", .ticks = TICKS_POWERS_OF_TEN},
+        .x = {.name = 'x',
+              .title = "error of 99.9 % of the pixels (linear radiance)",
+              .ticks = TICKS_POWERS_OF_TEN},
         .y = {.name = 'y', .title = "time, ms", .ticks = TICKS_PLAIN},
     };
     struct box *taken = calloc(2 * json_array_size(points) + 1, sizeof(struct box));
