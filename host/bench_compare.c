@@ -98,10 +98,19 @@ static double median_variance(const json_t *point, double typical)
     return 1.2533 * 1.2533 * deviation * deviation / runs;
 }
 
+/* How the machine as a whole has changed from one bench to the other, as the settings of one backend tell. */
+struct drift {
+    bool known;
+    double log_ratio, variance; /* of times */
+};
+
+enum { VULKAN, CPU, BACKENDS };
+
 struct comparing {
     const json_t *old_scene, *new_scene;
-    bool times, errors; /* can be compared */
+    bool times; /* can be compared */
     double old_typical, new_typical;
+    struct drift drifts[BACKENDS];
     size_t compared, worse, better;
     FILE *stream;
 };
@@ -115,15 +124,56 @@ static void print_change(const struct comparing *comparing, const json_t *point,
             new_value, unit, old_value, unit);
 }
 
+static int backend_of(const json_t *point)
+{
+    return strcmp(json_text_at(point, "backend"), "cpu") == 0 ? CPU : VULKAN;
+}
+
+static double log_ratio(const json_t *old, const json_t *new)
+{
+    return log(number_of(new, "time_ms") / number_of(old, "time_ms"));
+}
+
+/* The median over the settings of a backend, and its variance. */
+static struct drift find_drift(const struct comparing *comparing, int backend)
+{
+    double ratios[MAX_POINTS], sum = 0, squares = 0;
+    size_t count = 0, i;
+    const json_t *point;
+    json_array_foreach(json_object_get(comparing->new_scene, "points"), i, point)
+    {
+        const json_t *old = find_point(comparing->old_scene, point);
+        double ratio = old && backend_of(point) == backend ? log_ratio(old, point) : NAN;
+        if (!isfinite(ratio) || count == MAX_POINTS)
+            continue;
+        ratios[count++] = ratio;
+        sum += ratio;
+        squares += ratio * ratio;
+    }
+    if (count < 2)
+        return (struct drift){.known = false};
+    sort_doubles(ratios, count);
+    double n = (double)count, variance = fmax(squares - sum * sum / n, 0) / (n - 1);
+    return (struct drift){true, sorted_quantile(ratios, count, 0.5), 1.2533 * 1.2533 * variance / n};
+}
+
+static bool is_beyond(double change, double variance)
+{
+    return fabs(change) > fmax(log1p(least_change), standard_errors * sqrt(variance));
+}
+
 static void compare_times(struct comparing *comparing, const json_t *old, const json_t *new)
 {
-    double old_ms = number_of(old, "time_ms"), new_ms = number_of(new, "time_ms");
-    double change = log(new_ms / old_ms);
-    double noise =
-        sqrt(median_variance(old, comparing->old_typical) + median_variance(new, comparing->new_typical));
-    if (!(fabs(change) > fmax(log1p(least_change), standard_errors * noise)))
+    double change = log_ratio(old, new);
+    double variance =
+        median_variance(old, comparing->old_typical) + median_variance(new, comparing->new_typical);
+    const struct drift *control = &comparing->drifts[backend_of(new) == CPU ? VULKAN : CPU];
+    double own = change - control->log_ratio;
+    if (!is_beyond(change, variance) ||
+        (control->known && (own * change < 0 || !is_beyond(own, variance + control->variance))))
         return;
-    print_change(comparing, new, change > 0 ? "SLOWER" : "faster", old_ms, new_ms, " ms");
+    print_change(comparing, new, change > 0 ? "SLOWER" : "faster", number_of(old, "time_ms"),
+                 number_of(new, "time_ms"), " ms");
     comparing->worse += change > 0;
     comparing->better += change < 0;
 }
@@ -165,6 +215,8 @@ static void compare_scenes(struct comparing *comparing)
     size_t i;
     comparing->old_typical = typical_spread(comparing->old_scene);
     comparing->new_typical = typical_spread(comparing->new_scene);
+    for (int backend = 0; backend < BACKENDS; ++backend)
+        comparing->drifts[backend] = find_drift(comparing, backend);
     const char *name = json_text_at(comparing->new_scene, "scene");
     bool same_size = number_of(comparing->old_scene, "width") == number_of(comparing->new_scene, "width") &&
                      number_of(comparing->old_scene, "height") == number_of(comparing->new_scene, "height");

@@ -17,8 +17,11 @@ enum status bench_document_read(const char *path, json_t **document);
  * Times differ beyond noise if the medians differ by more than 5 % and by more than four standard errors
  * of their difference: with a standard error of 1.2533 s / sqrt(n) for a median of n runs, s = the distance
  * of the quartiles / 1.349, and with that distance, relative to the median, at least the bench's typical one.
- * Four: with a hundred settings, one bench in a hundred and fifty is wrong where noise is normal. Times of
- * another machine or device are not compared.
+ * Four: with a hundred settings, one bench in a hundred and fifty is wrong where noise is normal. The machine
+ * as a whole may have become slower or faster between the two benches, which neither tells by itself. So the
+ * change must be as far beyond noise in proportion to the other backend's median change, device and CPU serving
+ * as each other's control; the variance of that median counts as noise, too. Times of another machine or
+ * device are not compared.
  *
  * Errors have no noise, for pictures are functions of the scene: any rise of RMSE or of the largest error
  * counts, but in pictures of scenes with sampled lights and of several pixel samples, where another choice of

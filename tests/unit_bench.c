@@ -173,6 +173,58 @@ static void compare_times(void **state)
     assert_non_null(strstr(text, "another machine: processor two, was one"));
 }
 
+/* The same bench with two settings on the CPU, whose times and the others' are multiplied. */
+static json_t *make_mixed_bench(double device_factor, double cpu_factor)
+{
+    json_t *document = make_bench("one", 10, 1e-3, 0.5, 60);
+    json_t *scene = json_array_get(json_object_get(document, "scenes"), 0);
+    json_t *points = json_object_get(scene, "points"), *point;
+    size_t i;
+    for (i = 0; i < 2; ++i) {
+        point = json_deep_copy(json_array_get(points, i));
+        json_object_set_new(point, "backend", json_string("cpu"));
+        json_object_set_new(point, "options",
+                            json_string(i == 0 ? "--backend cpu" : "--backend cpu --threads 1"));
+        json_array_append_new(points, point);
+    }
+    json_array_foreach(points, i, point)
+    {
+        double time = 10 * (i < 3 ? device_factor : cpu_factor);
+        json_object_set_new(point, "time_ms", json_real(time));
+        json_object_set_new(point, "time_quartiles_ms", json_pack("[f, f]", 0.95 * time, 1.05 * time));
+    }
+    return document;
+}
+
+static void compare_with_control(void **state)
+{
+    (void)state;
+    static const struct {
+        double device, cpu;
+        enum status expected;
+        const char *says;
+    } cases[] = {
+        {2, 2, STATUS_DONE, "0 became worse, 0 better"}, /* the machine as a whole */
+        {0.5, 0.5, STATUS_DONE, "0 became worse, 0 better"},
+        {2, 1, STATUS_DIFFERS, "3 became worse, 0 better"},
+        {1, 2, STATUS_DIFFERS, "2 became worse, 0 better"},
+        {3, 2, STATUS_DIFFERS, "3 became worse, 0 better"}, /* slower than the machine */
+        {1, 0.5, STATUS_DONE, "0 became worse, 2 better"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        char text[2000];
+        FILE *stream = fmemopen(text, sizeof text, "w");
+        assert_non_null(stream);
+        json_t *old = make_mixed_bench(1, 1), *new = make_mixed_bench(cases[i].device, cases[i].cpu);
+        enum status status = bench_compare(old, new, stream);
+        fclose(stream);
+        json_decref(old);
+        json_decref(new);
+        if (status != cases[i].expected || !strstr(text, cases[i].says))
+            fail_msg("case %zu: status %d: %s", i, status, text);
+    }
+}
+
 static void compare_errors(void **state)
 {
     (void)state;
@@ -286,6 +338,7 @@ int main(void)
         cmocka_unit_test(grid_covers_the_picture),
         cmocka_unit_test(errors_of_a_picture),
         cmocka_unit_test(compare_times),
+        cmocka_unit_test(compare_with_control),
         cmocka_unit_test(compare_errors),
         cmocka_unit_test(compare_nothing_in_common),
         cmocka_unit_test_setup_teardown(energy_of_the_packages, test_folder_setup, test_folder_teardown),
