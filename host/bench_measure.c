@@ -1,5 +1,6 @@
 #include "bench_measure.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -164,20 +165,50 @@ static bool same_picture(const struct picture_settings *a, const struct picture_
            (!a->has_max_error || a->max_error == b->max_error);
 }
 
+/* Copies what a point with the same picture has, if there is one. */
+static bool share_rays(const struct bench_point *points, size_t count, struct bench_point *point)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (points[i].rays.primary > 0 && points[i].setting.precision == PRECISION_FLOAT &&
+            same_picture(&points[i].setting.picture, &point->setting.picture)) {
+            point->rays = points[i].rays;
+            return true;
+        }
+    return false;
+}
+
+/* How long the reference takes for the point's picture, by what it took for the scene's. */
+static double reference_ms(const struct bench_point *points, size_t count, const struct bench_point *point)
+{
+    const struct picture_settings *picture = &point->setting.picture;
+    for (size_t i = 0; i < count; ++i) {
+        const struct picture_settings *known = &points[i].setting.picture;
+        if (points[i].setting.family == FAMILY_CPU && points[i].setting.precision == PRECISION_FLOAT)
+            return points[i].first_ms * picture->samples / known->samples * picture->light_samples /
+                   known->light_samples;
+    }
+    return INFINITY;
+}
+
 enum status bench_count_rays(struct vulkan_context *context, struct bench_point *points, size_t count)
 {
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < count && status == STATUS_DONE; ++i) {
         struct bench_point *point = &points[i];
-        for (size_t k = 0; k < count && point->rays.primary == 0; ++k)
-            if (points[k].rays.primary > 0 && points[k].setting.precision == PRECISION_FLOAT &&
-                same_picture(&points[k].setting.picture, &point->setting.picture))
-                point->rays = points[k].rays;
-        if (point->rays.primary > 0)
+        if (point->rays.primary > 0 || share_rays(points, count, point))
             continue;
         struct render_plan plan = plan_of(point);
         plan.precision = PRECISION_FLOAT;
-        status = rays_on_device(context, &plan, &point->rays);
+        if (reference_ms(points, count, point) > point->setup_ms + point->first_ms) {
+            status = rays_on_device(context, &plan, &point->rays);
+            continue;
+        }
+        struct rendering rendering;
+        status = render_on_cpu(&plan, &rendering);
+        if (status != STATUS_DONE)
+            break;
+        point->rays = rendering.rays;
+        image_destroy(&rendering.image);
     }
     return status;
 }

@@ -49,7 +49,8 @@ struct bench_times {
 };
 struct bench_times bench_point_times(const struct bench_point *point);
 
-/* Counts the rays of the points on a device, in exact float: they depend on the picture's settings only. */
+/* Counts the rays of the points on a device as they are in float: on the device, which has to build another
+ * pipeline for it, or where that takes longer with the reference, which traces the same. */
 enum status bench_count_rays(struct vulkan_context *context, struct bench_point *points, size_t count);
 
 #endif

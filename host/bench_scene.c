@@ -13,7 +13,7 @@ struct effort {
     double explained_work;
     double longest_run_ms; /* a family ends where its next run would take longer */
     struct bench_patience patience;
-    double whole_ms; /* a bench that has taken longer makes no more than the least runs */
+    double whole_ms; /* a bench that has taken longer starts no more knobs and makes the least runs only */
     double truth_share, filtered_share, explained_share, start_share; /* of the progress bar, in ms */
 };
 
@@ -180,6 +180,11 @@ static enum status start_points(struct bench *bench, const struct bench_setting 
         bool too_long;
         if (skipped && settings[i].family == skipped->family && settings[i].fast == skipped->fast)
             continue;
+        if (settings[i].family >= FAMILY_MAX_ERROR &&
+            clock_ms() - bench->start_ms > bench->effort->whole_ms) {
+            log_warning("%s: no time for %zu of %zu settings", bench->path, count - i, count);
+            break;
+        }
         status = foresee(bench, &settings[i], image, &too_long);
         skipped = too_long ? &settings[i] : NULL;
         if (too_long || status != STATUS_DONE)

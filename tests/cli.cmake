@@ -42,7 +42,7 @@ add_cli_tests(output formats same_bits_on_both_backends exr_metadata transfer un
 add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer loops_ended_early
               devices)
 add_cli_tests(check agreement difference tolerance allow heatmap json worst_status)
-add_cli_tests(bench files without_device compare bad_comparison options interrupted)
+add_cli_tests(bench files without_device report compare bad_comparison options interrupted)
 add_cli_tests(interrupt sigint_on_device sigint_on_cpu sigterm)
 add_cli_tests(progress on_a_terminal not_elsewhere quiet)
 if(VKWHITTED_SLOW_TESTS)
