@@ -43,6 +43,7 @@ add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validati
               devices)
 add_cli_tests(check agreement difference tolerance allow heatmap json worst_status)
 add_cli_tests(bench files without_device report compare bad_comparison options interrupted)
+set_tests_properties(cli/bench/files cli/bench/compare PROPERTIES TIMEOUT 400)
 add_cli_tests(interrupt sigint_on_device sigint_on_cpu sigterm)
 add_cli_tests(progress on_a_terminal not_elsewhere quiet)
 if(VKWHITTED_SLOW_TESTS)
