@@ -1,8 +1,9 @@
 /* The reference at high precision, with a running error analysis of what the float tracer does: for each
  * pixel the radiance, the path signature, how far the nearest decision is from going the other way in float,
  * and a bound on float's error if all decisions are the same. Built at double and binary128 with the entry's
- * name REFERENCE_EXPLAIN. */
+ * name REFERENCE_EXPLAIN, or REFERENCE_RECORD for the one that tells what it does. */
 #include "camera.h"
+#include "events.h"
 #include "light_margin.h"
 #include "reference.h"
 #include "tally.h"
@@ -35,6 +36,8 @@ static void gather(struct pixel *pixel, const struct tracked_path *path, struct 
                    struct vec3 error)
 {
     double relative = path->e_weight + rounding(path->weight);
+    RECORD_LEAF(radiance, scale((real)path->weight, radiance));
+    RECORD_BOUNDS(error, add(scale((real)path->weight, error), scale((real)relative, radiance)), 0, INFINITY);
     pixel->radiance = add(pixel->radiance, scale((real)path->weight, radiance));
     pixel->error = add(pixel->error, add(scale((real)path->weight, error), scale((real)relative, radiance)));
 }
@@ -61,6 +64,11 @@ static void trace_dielectric(struct pixel *pixel, const struct tracked_path *pat
         track_refraction((double)cos_in, (double)eta, (double)kappa, path->error.direction, hit_error.normal);
     note(&pixel->tally, refraction.total);
     pixel->margin = smaller(pixel->margin, error.margin);
+    RECORD_SPLIT(cos_in, refraction);
+    RECORD_BOUNDS(each(error.refracted_direction),
+                  ((struct vec3){(real)(path->error.direction + hit_error.normal + rounding(1)),
+                                 (real)error.reflectance, 0}),
+                  0, error.margin);
     if (refraction.total) {
         trace_secondary(pixel, &reflected);
         return;
@@ -78,6 +86,10 @@ static void trace_dielectric(struct pixel *pixel, const struct tracked_path *pat
     reflected.weight = path->weight * reflectance;
     reflected.e_weight =
         path->e_weight * reflectance + path->weight * error.reflectance + rounding(reflected.weight);
+    RECORD_UNTRACED(!(reflected.weight > SMALLEST_WEIGHT), UNTRACED_REFLECTED, reflected.weight,
+                    reflected.e_weight, 0);
+    RECORD_UNTRACED(!(refracted.weight > SMALLEST_WEIGHT), UNTRACED_REFRACTED, refracted.weight,
+                    refracted.e_weight, 0);
     trace_secondary(pixel, &refracted);
     trace_secondary(pixel, &reflected);
 }
@@ -87,22 +99,31 @@ static void trace(struct pixel *pixel, const struct tracked_path *path)
     const struct packed_scene *scene = pixel->scene;
     const struct ray *ray = &path->ray;
     struct hit hit;
+    RECORD_RAY(pixel->sample, path);
+    RECORD_BOUNDS(each(path->error.origin), each(path->error.direction), path->e_weight, INFINITY);
     bool met = find_hit(scene, ray, &hit);
     note(&pixel->tally, (uint32_t)(hit.surface + 1) * 2 + hit.leaving);
-    pixel->margin = smaller(pixel->margin, hit_margin(scene, ray, path->error, &hit));
+    double margin = hit_margin(scene, ray, path->error, &hit);
+    pixel->margin = smaller(pixel->margin, margin);
+    RECORD_HIT(&hit);
+    RECORD_BOUNDS(each(0), each(0), 0, margin);
     if (!met) {
         gather(pixel, path, vector_of(scene->view.background), (struct vec3){0, 0, 0});
         return;
     }
     struct hit_error hit_error = track_hit(scene, ray, path->error, &hit);
+    RECORD_BOUNDS(each(hit_error.normal), each(hit_error.point),
+                  distance_error(scene, ray, hit.surface, (double)hit.distance, path->error), margin);
     if (hit_error.normal > 0.5 || path->error.direction > 0.5)
         pixel->margin = 0; /* float knows no direction here */
     if (hit.material->tags.x == KIND_MATTE) {
         gather_matte(pixel, path, &hit, hit_error);
         return;
     }
-    if (path->bounces == scene->max_bounces)
+    if (path->bounces == scene->max_bounces) {
+        RECORD_UNTRACED(true, UNTRACED_BOUNCES, path->weight, path->e_weight, 0);
         return;
+    }
     struct tracked_path reflected = *path;
     reflected.ray = (struct ray){
         .origin = hit.point,
@@ -143,6 +164,18 @@ static struct pixel explain_pixel(const struct packed_scene *scene, int x, int y
     return pixel;
 }
 
+#ifdef REFERENCE_RECORD
+
+void REFERENCE_RECORD(const struct packed_scene *scene, int x, int y, struct reference_log *log)
+{
+    event_log = log;
+    struct pixel pixel = explain_pixel(scene, x, y);
+    RECORD(EVENT_PIXEL, (layout_ivec4){0}, pixel.radiance, each(0), 0);
+    RECORD_BOUNDS(pixel.error, each(0), 0, pixel.margin);
+}
+
+#else
+
 void REFERENCE_EXPLAIN(const struct packed_scene *scene, struct reference_window window, int threads,
                        struct reference_explanation *explanations)
 {
@@ -160,3 +193,5 @@ void REFERENCE_EXPLAIN(const struct packed_scene *scene, struct reference_window
         }
     }
 }
+
+#endif

@@ -96,6 +96,7 @@ static inline struct tracked track_receive(const struct packed_scene *scene, con
     double cos_in = (double)dot(hit->normal, direction), cos_out = fabs((double)matte->cos_out);
     double e_cos_in = *e_to_light + hit_error.normal + rounding(1);
     double e_cos_out = e_ray_direction + hit_error.normal + rounding(1);
+    NOTE_LIGHT_BOUNDS(e_light, e_way, e_cos_in, 0, INFINITY);
     if (cos_in < -e_cos_in)
         return (struct tracked){value, 0};
 
@@ -124,6 +125,7 @@ static inline struct tracked track_receive(const struct packed_scene *scene, con
                          area * (*e_to_light + rounding(1)));
     }
     *margin = smaller(*margin, conjunction_margin(&lit));
+    NOTE_LIGHT_BOUNDS(e_light, e_way, e_cos_in, error, conjunction_margin(&lit));
     return (struct tracked){value, error};
 }
 
@@ -143,6 +145,7 @@ static inline struct vec3 track_lights(const struct packed_scene *scene, const s
         struct tracked received = track_receive(scene, &matte, hit_error, e_ray_direction, NULL, position, 0,
                                                 &to_light, tally, &e_to_light, margin);
         note(tally, received.value > 0);
+        RECORD_LIGHT(i, 0, position, 1);
         struct vec3 intensity = vector_of(scene->point_lights[i].intensity);
         sum = add(sum, scale((real)received.value, intensity));
         errors = add(errors, scale((real)(received.error + rounding(received.value)), intensity));
@@ -164,6 +167,8 @@ static inline struct vec3 track_lights(const struct packed_scene *scene, const s
             bool lit = received.value > 0 && projected > 0;
             note(tally, lit);
             double e_projected = area * (e_to_light + rounding(1));
+            NOTE_AREA_BOUND(e_projected);
+            RECORD_LIGHT(scene->point_light_count + i, k, light, (real)projected);
             quad_sum += lit ? received.value * projected : 0;
             quad_error += received.error * larger(projected, 0) + received.value * e_projected;
         }

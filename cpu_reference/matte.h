@@ -2,6 +2,7 @@
 #ifndef REFERENCE_MATTE_H
 #define REFERENCE_MATTE_H
 
+#include "events.h"
 #include "geometry.h"
 #include "sobol.h"
 #include "tally.h"
@@ -31,15 +32,18 @@ static inline real receive(const struct packed_scene *scene, const struct matte_
     const struct hit *hit = matte->hit;
     struct vec3 way = subtract(light, hit->point);
     real distance_squared = dot(way, way);
+    NOTE_LIGHT_TOO_NEAR();
     if (!(distance_squared > (real)NEAREST_LIGHT_SQUARED))
         return 0;
     real distance = square_root(distance_squared);
     real inverse = 1 / distance;
     *to_light = scale(inverse, way);
     real cos_in = dot(hit->normal, *to_light);
+    NOTE_LIGHT_BEHIND(distance, cos_in);
     if (!(cos_in > 0))
         return 0;
     ++tally->rays.shadow;
+    NOTE_SHADOW_RAY();
     struct segment segment = {
         .from = hit->point,
         .to = light,
@@ -48,10 +52,13 @@ static inline real receive(const struct packed_scene *scene, const struct matte_
         .surface = hit->surface,
         .inward = hit->leaving,
     };
-    if (is_blocked(scene, &segment))
+    if (is_blocked(scene, &segment)) {
+        NOTE_BLOCKED(scene, &segment);
         return 0;
+    }
     real factor = oren_nayar(hit->material->parameters.w, hit->material->oren_nayar_b.x, *to_light,
                              matte->ray->direction, cos_in, matte->cos_out);
+    NOTE_RECEIVED(factor * (inverse * inverse));
     return factor * (inverse * inverse);
 }
 
@@ -70,6 +77,7 @@ static inline struct vec3 receive_quad(const struct packed_scene *scene, const s
         real projected_area = dot(vector_of(quad->area_normal), to_light);
         bool lit = received > 0 && projected_area > 0;
         note(tally, lit);
+        RECORD_LIGHT(scene->point_light_count + (int)(quad - scene->quad_lights), k, light, projected_area);
         if (lit)
             sum = sum + received * projected_area;
     }
@@ -87,6 +95,7 @@ static inline struct vec3 reflect_lights(const struct packed_scene *scene, const
         struct vec3 to_light;
         real received = receive(scene, &matte, vector_of(scene->point_lights[i].position), &to_light, tally);
         note(tally, received > 0);
+        RECORD_LIGHT(i, 0, vector_of(scene->point_lights[i].position), 1);
         sum = add(sum, scale(received, vector_of(scene->point_lights[i].intensity)));
     }
     for (int i = 0; i < scene->quad_light_count; ++i)

@@ -1,7 +1,9 @@
 /* Whitted's recursion as the textbook writes it ("An Improved Illumination Model for Shaded Display", CACM
- * 23(6), 1980). Built once for each precision, with REFERENCE_BITS and the entry's name REFERENCE_RENDER. */
+ * 23(6), 1980). Built once for each precision, with REFERENCE_BITS and the entry's name REFERENCE_RENDER,
+ * or REFERENCE_RECORD for the one that tells what it does. */
 #include "camera.h"
 #include "dielectric.h"
+#include "events.h"
 #include "geometry.h"
 #include "lost.h"
 #include "matte.h"
@@ -62,6 +64,7 @@ static real add_exactly(real a, real b, real *rounding)
 static void gather(struct sample *sample, real weight, struct vec3 radiance)
 {
     struct vec3 leaf = scale(weight, radiance);
+    RECORD_LEAF(radiance, leaf);
     sample->radiance.x = add_exactly(sample->radiance.x, leaf.x, &sample->rounding.x);
     sample->radiance.y = add_exactly(sample->radiance.y, leaf.y, &sample->rounding.y);
     sample->radiance.z = add_exactly(sample->radiance.z, leaf.z, &sample->rounding.z);
@@ -76,6 +79,7 @@ static void trace_dielectric(struct sample *sample, const struct path *path, con
     struct refraction refraction = hit->leaving ? refract(direction, hit->normal, cos_in, ior.z, ior.w)
                                                 : refract(direction, hit->normal, cos_in, ior.x, ior.y);
     note(&sample->tally, refraction.total);
+    RECORD_SPLIT(cos_in, refraction);
     if (refraction.total) {
         trace_secondary(sample, &reflected);
         return;
@@ -89,6 +93,8 @@ static void trace_dielectric(struct sample *sample, const struct path *path, con
     reflected.branch = 2 * path->branch + 2;
     bool reflects = is_traced(sample, reflected.weight);
     bool refracts = is_traced(sample, refracted.weight);
+    RECORD_UNTRACED(!reflects, UNTRACED_REFLECTED, reflected.weight, 0, sample->charge);
+    RECORD_UNTRACED(!refracts, UNTRACED_REFRACTED, refracted.weight, 0, sample->charge);
     if (refracts)
         trace_secondary(sample, &refracted);
     if (reflects)
@@ -101,7 +107,9 @@ static void trace(struct sample *sample, const struct path *path)
     const struct packed_scene *scene = sample->scene;
     const struct ray *ray = &path->ray;
     struct hit hit;
+    RECORD_RAY(sample->index, path);
     bool met = find_hit(scene, ray, &hit);
+    RECORD_HIT(&hit);
     note(&sample->tally, (uint32_t)(hit.surface + 1) * 2 + hit.leaving);
     if (!met) {
         gather(sample, path->weight, vector_of(scene->view.background));
@@ -115,6 +123,7 @@ static void trace(struct sample *sample, const struct path *path)
     }
     if (path->bounces == scene->max_bounces) {
         sample->charge = charge_with(sample, path->weight);
+        RECORD_UNTRACED(true, UNTRACED_BOUNCES, path->weight, 0, sample->charge);
         return;
     }
     struct path reflected = *path;
@@ -125,9 +134,13 @@ static void trace(struct sample *sample, const struct path *path)
         .surface = hit.surface,
         .inward = hit.leaving,
     };
-    if (hit.material->tags.x == KIND_TRANSPARENT)
+    if (hit.material->tags.x == KIND_TRANSPARENT) {
         trace_dielectric(sample, path, &hit, reflected);
-    else if (scene->view.between_mirrors.w == 0 || !is_lost(scene, &reflected.ray))
+        return;
+    }
+    bool lost = scene->view.between_mirrors.w != 0 && is_lost(scene, &reflected.ray);
+    RECORD_UNTRACED(lost, UNTRACED_LOST, path->weight, 0, sample->charge);
+    if (!lost)
         trace_secondary(sample, &reflected);
 }
 
@@ -150,7 +163,9 @@ static struct pixel trace_pixel(const struct packed_scene *scene, int x, int y)
         struct path path = {.ray = camera_ray(scene, x, y, k), .weight = 1};
         ++sample.tally.rays.primary;
         trace(&sample, &path);
-        pixel.radiance = add(pixel.radiance, add(sample.radiance, sample.rounding));
+        struct vec3 radiance = add(sample.radiance, sample.rounding);
+        RECORD(EVENT_SAMPLE, (layout_ivec4){0}, radiance, (struct vec3){0}, sample.charge);
+        pixel.radiance = add(pixel.radiance, radiance);
         pixel.charges = (pixel.charges + sample.charge) * (real)ROUND_UP;
         pixel.tally = sample.tally;
     }
@@ -167,6 +182,19 @@ static double flush_small(real x)
 {
     return x < (real)SMALLEST_WEIGHT ? 0.0 : (double)x;
 }
+
+#ifdef REFERENCE_RECORD
+
+void REFERENCE_RECORD(const struct packed_scene *scene, int x, int y, struct reference_log *log)
+{
+    event_log = log;
+    struct vec3 radiance = trace_pixel(scene, x, y).radiance;
+    struct vec3 flushed = {(real)flush_small(radiance.x), (real)flush_small(radiance.y),
+                           (real)flush_small(radiance.z)};
+    RECORD(EVENT_PIXEL, (layout_ivec4){0}, flushed, (struct vec3){0}, 0);
+}
+
+#else
 
 void REFERENCE_RENDER(const struct packed_scene *scene, struct reference_window window, int threads,
                       struct reference_picture *picture)
@@ -193,3 +221,5 @@ void REFERENCE_RENDER(const struct packed_scene *scene, struct reference_window 
     picture->rays.secondary += secondary;
     picture->rays.shadow += shadow;
 }
+
+#endif

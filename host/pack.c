@@ -346,12 +346,17 @@ static enum status pack_contents(struct packing *packing)
     return STATUS_DONE;
 }
 
-enum status pack_scene(const struct scene *scene, const struct picture_settings *settings,
-                       struct packed_scene *packed)
+double pack_scale(const struct scene *scene)
 {
     int exponent;
     frexp(scene_extent(scene), &exponent);
-    struct packing packing = {.scene = scene, .scale = ldexp(1, -exponent), .packed = packed};
+    return ldexp(1, -exponent);
+}
+
+enum status pack_scene(const struct scene *scene, const struct picture_settings *settings,
+                       struct packed_scene *packed)
+{
+    struct packing packing = {.scene = scene, .scale = pack_scale(scene), .packed = packed};
     *packed = (struct packed_scene){
         .width = (int)settings->width,
         .height = (int)settings->height,

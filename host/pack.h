@@ -23,4 +23,7 @@ enum status pack_scene(const struct scene *scene, const struct picture_settings 
                        struct packed_scene *packed);
 void pack_destroy(struct packed_scene *packed);
 
+/* Scene units in a metre, a power of two. */
+double pack_scale(const struct scene *scene);
+
 #endif

@@ -56,7 +56,7 @@ static enum status create_picture(struct tracer *tracer)
         (VkMemoryPropertyFlags[]){VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | readable,
                                   VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0},
         &tracer->picture);
-    for (int i = PICTURE; i < BINDINGS; ++i) /* the saved ones are not used until the tracer is patient */
+    for (int i = PICTURE; i < EVENTS; ++i) /* the saved ones are not used until the tracer is patient */
         tracer->bindings[i] =
             (VkDescriptorBufferInfo){.buffer = tracer->picture.buffer, .range = VK_WHOLE_SIZE};
     if (status != STATUS_DONE || (tracer->picture.properties & readable) == readable)
@@ -68,16 +68,26 @@ static enum status create_picture(struct tracer *tracer)
         &tracer->staging);
 }
 
+/* The variant of the shader that suits the device and what is asked for. */
+static enum whitted_variant choose_variant(const struct tracer *tracer)
+{
+    const struct arithmetic *arithmetic = &tracer->context->arithmetic;
+    bool native = arithmetic->division_exact && arithmetic->root_exact;
+    bool events = tracer->options.event_room > 0;
+    if (tracer->options.double_precision)
+        return events ? WHITTED_DOUBLE_EVENTS : WHITTED_DOUBLE;
+    if (tracer->options.fast)
+        return WHITTED_FAST;
+    if (native)
+        return events ? WHITTED_EXACT_EVENTS : WHITTED_EXACT;
+    return events ? WHITTED_CORRECTED_EVENTS : WHITTED_CORRECTED;
+}
+
 enum status tracer_build_pipeline(struct tracer *tracer)
 {
     const struct tracer_options *options = &tracer->options;
     const struct arithmetic *arithmetic = &tracer->context->arithmetic;
-    bool native = arithmetic->division_exact && arithmetic->root_exact;
-    const struct spirv code = whitted_spirv(options->double_precision ? WHITTED_DOUBLE
-                                            : options->fast           ? WHITTED_FAST
-                                            : native                  ? WHITTED_EXACT
-                                                                      : WHITTED_CORRECTED,
-                                            tracer->scene_in_storage);
+    const struct spirv code = whitted_spirv(choose_variant(tracer), tracer->scene_in_storage);
     struct specialization constants = specialize(tracer->packed, &tracer->shape, options->output);
     constants.corrected_division = !arithmetic->division_exact;
     constants.corrected_root = !arithmetic->root_exact;
@@ -100,9 +110,14 @@ static VkDescriptorType binding_type(const struct tracer *tracer, uint32_t bindi
                : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
 }
 
+static uint32_t binding_count(const struct tracer *tracer)
+{
+    return tracer->events.buffer ? BINDINGS : EVENTS;
+}
+
 static void write_bindings(const struct tracer *tracer)
 {
-    for (uint32_t i = 0; i < BINDINGS; ++i)
+    for (uint32_t i = 0; i < binding_count(tracer); ++i)
         vkUpdateDescriptorSets(tracer->context->device, 1,
                                &(VkWriteDescriptorSet){
                                    .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
@@ -119,7 +134,7 @@ static enum status create_layout(struct tracer *tracer)
 {
     const VkDevice device = tracer->context->device;
     VkDescriptorSetLayoutBinding bindings[BINDINGS];
-    for (uint32_t i = 0; i < BINDINGS; ++i)
+    for (uint32_t i = 0; i < binding_count(tracer); ++i)
         bindings[i] = (VkDescriptorSetLayoutBinding){
             .binding = i,
             .descriptorType = binding_type(tracer, i),
@@ -129,7 +144,7 @@ static enum status create_layout(struct tracer *tracer)
     VULKAN_CALL(vkCreateDescriptorSetLayout, device,
                 &(VkDescriptorSetLayoutCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                    .bindingCount = BINDINGS,
+                    .bindingCount = binding_count(tracer),
                     .pBindings = bindings,
                 },
                 NULL, &tracer->set_layout);
@@ -285,6 +300,8 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
     if (status == STATUS_DONE)
         status = create_picture(tracer);
     if (status == STATUS_DONE)
+        status = tracer_create_events(tracer);
+    if (status == STATUS_DONE)
         status = create_layout(tracer);
     if (status == STATUS_DONE)
         status = tracer_build_pipeline(tracer);
@@ -311,6 +328,7 @@ void tracer_destroy(struct tracer **pointer)
     vkDestroyDescriptorSetLayout(device, tracer->set_layout, NULL);
     vulkan_buffer_destroy(tracer->context, &tracer->saved_stacks);
     vulkan_buffer_destroy(tracer->context, &tracer->saved_pixels);
+    vulkan_buffer_destroy(tracer->context, &tracer->events);
     vulkan_buffer_destroy(tracer->context, &tracer->staging);
     vulkan_buffer_destroy(tracer->context, &tracer->picture);
     vulkan_buffer_destroy(tracer->context, &tracer->scene);

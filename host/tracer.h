@@ -15,6 +15,7 @@ struct tracer_options {
     int output;                         /* OUTPUT_ of scene_layout.h */
     unsigned group_width, group_height; /* invocations; 0: a choice that suits the device */
     unsigned tile_pixels;               /* most pixels a dispatch; 0: likewise */
+    uint32_t event_room;                /* 0: no events are recorded; exact mode only */
 };
 
 /* Part of the picture, in pixels from the top left. */
@@ -34,5 +35,10 @@ void tracer_destroy(struct tracer **tracer);
  * progress, whose unit is a pixel. STATUS_INTERRUPTED after Ctrl-C. */
 enum status tracer_render(struct tracer *tracer, struct window window, struct image *image,
                           struct progress *progress, double *dispatch_ms);
+
+/* The events of the pixel that was rendered last, in a window of its own, in the tracer's memory: EventHead
+ * of scene_layout.h and EVENT_VALUES float or double each. The number of those that took place; of these
+ * tracer_options.event_room at most are there. */
+uint32_t tracer_events(const struct tracer *tracer, const void **events);
 
 #endif

@@ -17,6 +17,7 @@ enum {
     PICTURE = SCENE_BINDINGS,
     SAVED_PIXELS,
     SAVED_STACKS,
+    EVENTS,
     BINDINGS,
 };
 
@@ -32,6 +33,7 @@ struct tracer {
     unsigned tile_pixels, samples_per_dispatch;
     struct vulkan_buffer scene, picture;
     struct vulkan_buffer saved_pixels, saved_stacks; /* once patient */
+    struct vulkan_buffer events;                     /* only if asked for */
     struct vulkan_buffer staging;                    /* only where the host cannot read `picture` well */
     VkDescriptorBufferInfo bindings[BINDINGS];
     VkDescriptorSetLayout set_layout;
@@ -63,5 +65,8 @@ enum status tracer_build_pipeline(struct tracer *tracer);
 
 /* From now on ray trees may take several dispatches: smaller tiles, another pipeline. */
 enum status tracer_become_patient(struct tracer *tracer);
+
+/* Makes the buffer of the events, if there are to be any. */
+enum status tracer_create_events(struct tracer *tracer);
 
 #endif

@@ -58,7 +58,8 @@ static enum status record_tile(struct tracer *tracer, struct window tile, struct
         vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, tracer->timestamps, 1);
     if (tracer->staging.buffer) {
         record_barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+                       VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_HOST_BIT,
+                       VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_HOST_READ_BIT);
         vkCmdCopyBuffer(commands, tracer->picture.buffer, tracer->staging.buffer, 1,
                         &(VkBufferCopy){
                             .size = (VkDeviceSize)tile.width * tile.height * pixel_size(tracer),

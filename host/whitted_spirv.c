@@ -1,10 +1,16 @@
 #include "whitted_spirv.h"
 
 #include "whitted_corrected.h"
+#include "whitted_corrected_events.h"
+#include "whitted_corrected_events_storage.h"
 #include "whitted_corrected_storage.h"
 #include "whitted_double.h"
+#include "whitted_double_events.h"
+#include "whitted_double_events_storage.h"
 #include "whitted_double_storage.h"
 #include "whitted_exact.h"
+#include "whitted_exact_events.h"
+#include "whitted_exact_events_storage.h"
 #include "whitted_exact_storage.h"
 #include "whitted_fast.h"
 #include "whitted_fast_storage.h"
@@ -23,6 +29,9 @@ struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage)
         [WHITTED_CORRECTED] = VARIANT(whitted_corrected),
         [WHITTED_DOUBLE] = VARIANT(whitted_double),
         [WHITTED_FAST] = VARIANT(whitted_fast),
+        [WHITTED_EXACT_EVENTS] = VARIANT(whitted_exact_events),
+        [WHITTED_CORRECTED_EVENTS] = VARIANT(whitted_corrected_events),
+        [WHITTED_DOUBLE_EVENTS] = VARIANT(whitted_double_events),
     };
 #undef VARIANT
     return variants[variant][scene_in_storage];

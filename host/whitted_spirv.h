@@ -15,6 +15,10 @@ enum whitted_variant {
     WHITTED_CORRECTED, /* for a device whose / or sqrt is not exact */
     WHITTED_DOUBLE,    /* exact, in double precision */
     WHITTED_FAST,
+    /* these tell of one pixel, see shaders/events.glsl */
+    WHITTED_EXACT_EVENTS,
+    WHITTED_CORRECTED_EVENTS,
+    WHITTED_DOUBLE_EVENTS,
 };
 
 /* shaders/whitted.comp as compiled by the build, the scene in uniform or in storage buffers. */

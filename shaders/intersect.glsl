@@ -220,8 +220,15 @@ bool plane_shadows(int i, real3 point, int surface, real3 light)
 bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real distance, real3 light)
 {
     bool shadowed = false;
-    FOR_EACH(i, SPHERES, shadowed = sphere_shadows(i, point, surface, inward, to_light, distance, light) || shadowed;)
+    note_no_blocker();
+    FOR_EACH(i, SPHERES, {
+        shadowed = sphere_shadows(i, point, surface, inward, to_light, distance, light) || shadowed;
+        note_blocker(i, shadowed);
+    })
     if (PLANES_SHADOW)
-        FOR_EACH(i, PLANES, shadowed = plane_shadows(i, point, surface, light) || shadowed;)
+        FOR_EACH(i, PLANES, {
+            shadowed = plane_shadows(i, point, surface, light) || shadowed;
+            note_blocker(SPHERES + i, shadowed);
+        })
     return shadowed;
 }

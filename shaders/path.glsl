@@ -1,6 +1,6 @@
 // The ray that is being traced, and the stack of those that wait for it.
 
-const bool LIGHTS_TELL_BRANCHES = GLASS && QUAD_LIGHTS > 0;
+const bool LIGHTS_TELL_BRANCHES = GLASS && QUAD_LIGHTS > NO_QUAD_LIGHTS;
 
 // A ray, what it counts for in the pixel, and the bounces it has behind it.
 struct Path {

@@ -64,6 +64,33 @@ typedef struct PackedSurface PackedSurface;
  * NUMERICS.md. */
 #define LARGEST_SHARE 0.25
 
+/* What both tracers can tell of one pixel: events in the order of the recursion. Each has a head and values: two
+ * vectors and a number. */
+#define EVENT_RAY 0      /* facts: surface left, inward; values: origin, direction, weight */
+#define EVENT_HIT 1      /* facts: surface or -1, leaving; values: normal, point, distance */
+#define EVENT_SPLIT 2    /* facts: total reflection; values: refracted direction, (cos_in, k_r) */
+#define EVENT_UNTRACED 3 /* facts: UNTRACED_; values: (weight, charge of the sample so far) */
+#define EVENT_LIGHT 4    /* facts: light, sample, LIGHT_, blocker; values: point, (distance, cos_in, received), area */
+#define EVENT_LEAF 5     /* values: radiance seen, contribution */
+#define EVENT_SAMPLE 6   /* values: radiance, 0, charge */
+#define EVENT_PIXEL 7    /* values: radiance */
+#define EVENT_KINDS 8
+#define EVENT_VALUES 8 /* 3, 3, 1, and one to fill up */
+
+#define UNTRACED_REFLECTED 0
+#define UNTRACED_REFRACTED 1
+#define UNTRACED_BOUNCES 2 /* max_bounces */
+#define UNTRACED_LOST 3    /* between parallel mirrors, where nothing else is */
+
+#define LIGHT_TOO_NEAR 0 /* to shine, see NEAREST_LIGHT_SQUARED */
+#define LIGHT_BEHIND 1   /* the surface */
+#define LIGHT_SHADOW_RAY 2
+
+struct EventHead {
+    LAYOUT_IVEC4 place; /* EVENT_, the pixel's sample, branch and bounces of the ray */
+    LAYOUT_IVEC4 facts;
+};
+
 struct PackedSurface {
     /* matte: albedo / pi in xyz, Oren-Nayar's A in w.
      * transparent: eta entering, 1 - eta^2 entering, eta leaving, 1 - eta^2 leaving. */

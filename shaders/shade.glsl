@@ -41,6 +41,7 @@ real point_irradiance(Matte matte, real3 light, out real3 to_light, inout Tally 
         if (!in_shadow(matte.point, matte.surface, matte.inward, direction, distance, light))
             irradiance = matte_factor(matte, direction, cos_in) * (inverse * inverse);
     }
+    note_light(distance_squared, distance, cos_in, irradiance);
     return irradiance;
 }
 
@@ -62,6 +63,7 @@ real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout Tall
         exact real projected_area = dot3(area_normal, to_light);
         bool lit = irradiance > real(0) && projected_area > real(0);
         note(tally, lit ? 1u : 0u);
+        emit_light(POINT_LIGHTS + i, k, light, projected_area);
         if (lit)
             sum = sum + irradiance * projected_area;
     }
@@ -78,6 +80,7 @@ real3 direct_light(Matte matte, uint sample_index, uint seed, inout Tally tally)
             real3 to_light;
             real irradiance = point_irradiance(matte, real3(get_point_light(i).position.xyz), to_light, tally);
             note(tally, irradiance > real(0) ? 1u : 0u);
+            emit_light(i, 0, real3(get_point_light(i).position.xyz), real(1));
             sum = sum + irradiance * real3(get_point_light(i).intensity.xyz);
         })
     if (QUAD_LIGHTS > 0)

@@ -7,6 +7,7 @@
 
 #include "scene.glsl"
 #include "arithmetic.glsl"
+#include "events.glsl"
 #include "sampling.glsl"
 #include "tally.glsl"
 #include "intersect.glsl"
@@ -26,7 +27,7 @@ uvec2 tile_origin, tile_size, image_size;
 uint first_sample, end_sample;
 bool sample_goes_on;
 
-const bool CHARGES = PRUNES || OUTPUT == OUTPUT_TRUNCATION;
+const bool CHARGES = PRUNES || OUTPUT == OUTPUT_TRUNCATION || RECORDS;
 
 struct Pixel {
     real3 radiance; // sum over the samples
@@ -111,19 +112,25 @@ bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real
     path.ray.direction = reflected(incident, normal, cos_in);
     path.ray.surface = hit.surface;
     path.ray.inward = hit.leaving;
-    if (!GLASS || hit.kind != KIND_TRANSPARENT)
-        return !(RAYS_GET_LOST && is_lost(path.ray));
+    if (!GLASS || hit.kind != KIND_TRANSPARENT) {
+        bool lost = RAYS_GET_LOST && is_lost(path.ray);
+        emit_untraced(lost, UNTRACED_LOST, path.weight, pixel.charge);
+        return !lost;
+    }
 
     real eta = real(hit.leaving ? hit.parameters.z : hit.parameters.x);
     real kappa = real(hit.leaving ? hit.parameters.w : hit.parameters.y);
     Refraction refraction = refracted(incident, normal, cos_in, eta, kappa);
     note(pixel.tally, uint(refraction.total));
+    emit_split(cos_in, refraction);
     if (refraction.total)
         return true;
     exact real reflected_weight = path.weight * refraction.reflectance;
     exact real refracted_weight = path.weight * (real(1) - refraction.reflectance);
     bool reflects = is_traced(pixel, reflected_weight);
     bool refracts = is_traced(pixel, refracted_weight);
+    emit_untraced(!reflects, UNTRACED_REFLECTED, reflected_weight, pixel.charge);
+    emit_untraced(!refracts, UNTRACED_REFRACTED, refracted_weight, pixel.charge);
     path.weight = reflected_weight;
     path.branch = 2u * path.branch + 2u;
     if (refracts) {
@@ -148,6 +155,7 @@ void add_leaf(inout Pixel pixel, Path path, Hit hit, real3 point, real3 normal)
         seen = hit.kind == KIND_MATTE ? matte_radiance(pixel, path, hit, point, normal) : black;
     }
     exact real3 leaf = path.weight * seen;
+    emit_leaf(seen, leaf);
     if (!GLASS) { // the sample's only leaf
         pixel.leaves = leaf;
         return;
@@ -166,16 +174,20 @@ bool trace(inout Pixel pixel, inout Path path, inout int pending)
     uint rays = 0u, leaves = 0u;
     while (goes_on && (!PATIENT || rays < PORTION)) {
         ++rays;
+        emit_ray(pixel.sample_index, path);
         Hit hit = nearest_hit(path.ray);
         note(pixel.tally, uint(hit.surface + 1) * 2u + uint(hit.leaving));
         real3 point, normal;
         hit_point(path.ray, hit, point, normal);
+        emit_hit(hit, point, normal);
         goes_on = false;
         if ((MIRRORS || GLASS) && hit.surface >= 0 && hit.kind != KIND_MATTE) {
             if (SECONDARY_RAYS && path.bounces < MAX_BOUNCES)
                 goes_on = bounce(path, pending, pixel, hit, point, normal);
-            else if (CHARGES)
+            else if (CHARGES) {
                 charge(pixel, path.weight);
+                emit_untraced(true, UNTRACED_BOUNCES, path.weight, pixel.charge);
+            }
         } else {
             ++leaves;
             add_leaf(pixel, path, hit, point, normal);
@@ -205,10 +217,12 @@ bool render_sample(inout Pixel pixel, Path path, uint place)
         save(place, pixel, path, pending);
         return false;
     }
-    exact real3 radiance = pixel.radiance + (pixel.leaves + pixel.rounding);
+    exact real3 sample_radiance = pixel.leaves + pixel.rounding;
+    exact real3 radiance = pixel.radiance + sample_radiance;
     pixel.radiance = radiance;
     exact real charges = (pixel.charges + pixel.charge) * real(ROUND_UP);
     pixel.charges = charges;
+    emit_sample(sample_radiance, pixel.charge);
     return true;
 }
 
@@ -269,6 +283,7 @@ real3 render_pixel(uvec2 position, uint place)
     exact real3 value = pixel.radiance;
     for (int c = 0; c < 3; ++c)
         value[c] = value[c] < real(SMALLEST_WEIGHT) ? real(0) : value[c]; // a NaN stays to be seen
+    emit_pixel(value);
     return value;
 }
 
@@ -281,9 +296,11 @@ void main()
     first_sample = tile.first_sample;
     end_sample = tile.end_sample;
     sample_goes_on = tile.goes_on != 0u;
+    begin_events(first_sample == 0u && !sample_goes_on);
     for (uint row = 0u; row < ROWS; ++row) {
         uvec2 in_tile = uvec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * ROWS + row);
         bool inside = all(lessThan(in_tile, tile_size));
+        begin_pixel_events(in_tile);
         uint place = inside ? in_tile.y * tile_size.x + in_tile.x : 0u;
         real3 value = real3(0);
         if (!PATIENT || inside)
