@@ -17,16 +17,16 @@ static enum status choose_window(const struct options *options, const struct pic
 enum status job_create(const struct options *options, const char *scene_path, struct job *job)
 {
     *job = (struct job){0};
-    struct scene scene;
-    enum status status = scene_read(scene_path, &scene);
+    struct scene *scene = &job->scene;
+    enum status status = scene_read(scene_path, scene);
     if (status != STATUS_DONE)
         return status;
     const struct picture_settings settings = {
-        .width = options->width ? options->width : scene.width,
-        .height = options->height ? options->height : scene.height,
-        .max_bounces = options->max_bounces >= 0 ? (unsigned)options->max_bounces : scene.max_bounces,
+        .width = options->width ? options->width : scene->width,
+        .height = options->height ? options->height : scene->height,
+        .max_bounces = options->max_bounces >= 0 ? (unsigned)options->max_bounces : scene->max_bounces,
         .samples = options->samples,
-        .light_samples = options->light_samples ? options->light_samples : scene.light_samples,
+        .light_samples = options->light_samples ? options->light_samples : scene->light_samples,
         .has_max_error = options->has_max_error,
         .max_error = options->max_error,
     };
@@ -42,12 +42,14 @@ enum status job_create(const struct options *options, const char *scene_path, st
     };
     status = choose_window(options, &settings, &job->plan.window);
     if (status == STATUS_DONE)
-        status = pack_scene(&scene, &settings, &job->packed);
-    scene_destroy(&scene);
+        status = pack_scene(scene, &settings, &job->packed);
+    if (status != STATUS_DONE)
+        job_destroy(job);
     return status;
 }
 
 void job_destroy(struct job *job)
 {
     pack_destroy(&job->packed);
+    scene_destroy(&job->scene);
 }

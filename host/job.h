@@ -5,6 +5,7 @@
 
 /* A scene file made ready to render as the command line says. */
 struct job {
+    struct scene scene;
     struct packed_scene packed;
     struct render_plan plan;
     unsigned max_bounces;

@@ -4,6 +4,7 @@
 
 #include "command_bench.h"
 #include "command_check.h"
+#include "command_pixel.h"
 #include "command_render.h"
 #include "options.h"
 
@@ -16,6 +17,8 @@ static enum status run(const struct options *options)
         return command_check(options);
     case COMMAND_BENCH:
         return command_bench(options);
+    case COMMAND_PIXEL:
+        return command_pixel(options);
     case COMMAND_DEVICES:
         return vulkan_print_devices(&options->vulkan);
     case COMMAND_COUNT:

@@ -2,6 +2,7 @@
 
 #include <locale.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,4 +71,14 @@ bool parse_unsigned(const char *text, size_t length, unsigned long max, unsigned
     }
     *value = parsed;
     return true;
+}
+
+void print_shortest(double value, char text[static NUMBER_TEXT])
+{
+    bool is_float = (double)(float)value == value;
+    for (int digits = 1; digits <= 17; ++digits) {
+        snprintf(text, NUMBER_TEXT, "%.*g", digits, value);
+        if (is_float ? (double)strtof(text, NULL) == value : strtod(text, NULL) == value)
+            return;
+    }
 }

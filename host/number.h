@@ -16,4 +16,9 @@ bool parse_double(const char *text, size_t length, double *value);
 /* Digits only, at most max. */
 bool parse_unsigned(const char *text, size_t length, unsigned long max, unsigned long *value);
 
+enum { NUMBER_TEXT = 32 }; /* room for a printed number */
+
+/* The shortest decimal that reads back as this number, in single precision if it is one of those. */
+void print_shortest(double value, char text[static NUMBER_TEXT]);
+
 #endif

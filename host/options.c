@@ -14,6 +14,7 @@ enum {
     RENDER = 1 << COMMAND_RENDER,
     CHECK = 1 << COMMAND_CHECK,
     BENCH = 1 << COMMAND_BENCH,
+    PIXEL = 1 << COMMAND_PIXEL,
     DEVICES = 1 << COMMAND_DEVICES,
 };
 
@@ -89,11 +90,12 @@ static int takers(int id)
         return RENDER;
     case OPTION_TOLERANCE:
     case OPTION_ALLOW:
-    case OPTION_AGAINST:
     case OPTION_HEATMAP:
         return CHECK;
+    case OPTION_AGAINST:
+        return CHECK | PIXEL;
     case OPTION_JSON:
-        return CHECK | BENCH;
+        return CHECK | BENCH | PIXEL;
     case OPTION_CSV:
     case OPTION_REPORT:
     case OPTION_CHART:
@@ -101,8 +103,9 @@ static int takers(int id)
     case OPTION_QUICK:
         return BENCH;
     case OPTION_BACKEND:
-    case OPTION_SIZE:
         return RENDER | CHECK | BENCH;
+    case OPTION_SIZE:
+        return RENDER | CHECK | BENCH | PIXEL;
     case OPTION_DEVICE:
     case OPTION_VALIDATE:
     case 'q':
@@ -110,9 +113,13 @@ static int takers(int id)
     case 'h':
     case OPTION_HELP:
     case OPTION_VERSION:
-        return RENDER | CHECK | BENCH | DEVICES;
-    default:
+        return RENDER | CHECK | BENCH | PIXEL | DEVICES;
+    case OPTION_FAST:
+    case OPTION_CROP:
+    case OPTION_THREADS:
         return RENDER | CHECK;
+    default:
+        return RENDER | CHECK | PIXEL;
     }
 }
 
@@ -310,13 +317,32 @@ static enum status read_option(int id, const char *argument, struct options *opt
         log_set_verbosity(-1);
         break;
     case 'v':
+        options->verbose = true;
         log_set_verbosity(1);
         break;
     }
     return status;
 }
 
-static enum status check_consistency(const struct options *options)
+/* Takes the column and the row from behind the scene. */
+static enum status read_place(struct options *options)
+{
+    unsigned *const numbers[] = {&options->x, &options->y};
+    if (options->scene_count != 3) {
+        log_error("pixel takes a scene file, a column and a row; see 'vkwhitted --help'");
+        return STATUS_REFUSED;
+    }
+    for (int i = 0; i < 2; ++i)
+        if (!parse_list(options->scenes[1 + i], 0, 1, SCENE_MAX_SIZE, numbers[i])) {
+            log_error("pixel %s %s: expected the column and the row of a pixel, from 0 at the top left",
+                      options->scenes[1], options->scenes[2]);
+            return STATUS_REFUSED;
+        }
+    options->scene_count = 1;
+    return STATUS_DONE;
+}
+
+static enum status check_consistency(struct options *options)
 {
     const char *problem = NULL;
     if (options->command == COMMAND_DEVICES)
@@ -325,6 +351,8 @@ static enum status check_consistency(const struct options *options)
         problem = "expected a scene file";
     else if (options->command == COMMAND_RENDER && options->scene_count > 1)
         problem = "render takes one scene file";
+    else if (options->command == COMMAND_PIXEL && options->precision == PRECISION_QUAD)
+        problem = "pixel computes in float or double; see --against";
     else if (options->precision == PRECISION_QUAD && options->backend == BACKEND_VULKAN)
         problem = "--precision quad needs --backend cpu";
     else if (options->precision != PRECISION_FLOAT && (options->fast || options->against != PRECISION_FLOAT))
@@ -347,20 +375,20 @@ static enum status check_consistency(const struct options *options)
     else if (options->heatmap && image_format_of(options->heatmap) != IMAGE_FORMAT_PNG)
         problem = "--heatmap writes a .png";
     if (!problem)
-        return STATUS_DONE;
+        return options->command == COMMAND_PIXEL ? read_place(options) : STATUS_DONE;
     log_error("%s; see 'vkwhitted --help'", problem);
     return STATUS_REFUSED;
 }
 
 static enum status read_command(const char *name, enum command *command)
 {
-    static const char *const names[COMMAND_COUNT] = {"render", "check", "bench", "devices"};
+    static const char *const names[COMMAND_COUNT] = {"render", "check", "bench", "pixel", "devices"};
     for (int i = 0; i < COMMAND_COUNT; ++i)
         if (strcmp(name, names[i]) == 0) {
             *command = (enum command)i;
             return STATUS_DONE;
         }
-    log_error("%s: expected a command: render, check, bench or devices; see 'vkwhitted --help'", name);
+    log_error("%s: expected a command: render, check, bench, pixel or devices; see 'vkwhitted --help'", name);
     return STATUS_REFUSED;
 }
 

@@ -9,7 +9,7 @@
 #include "render.h"
 #include "vulkan_context.h"
 
-enum command { COMMAND_RENDER, COMMAND_CHECK, COMMAND_BENCH, COMMAND_DEVICES, COMMAND_COUNT };
+enum command { COMMAND_RENDER, COMMAND_CHECK, COMMAND_BENCH, COMMAND_PIXEL, COMMAND_DEVICES, COMMAND_COUNT };
 
 /* The command line, checked. Strings point into argv. */
 struct options {
@@ -43,7 +43,8 @@ struct options {
     const char *stats, *json, *heatmap;
     const char *csv, *report, *chart, *compare; /* bench; compare is an earlier one's JSON file */
     bool quick;
-    bool quiet;
+    unsigned x, y; /* of pixel */
+    bool quiet, verbose;
 };
 
 /* Reads the command line; owns options->outputs, freed with options_destroy(). STATUS_REFUSED (reported) if
