@@ -22,7 +22,7 @@ add_unit_test(scene_file)
 add_unit_test(srgb)
 
 # These open a device.
-foreach(module properties total_reflection tracer truncation values)
+foreach(module pixel properties total_reflection tracer truncation values)
     add_unit_test(${module})
     set_tests_properties(unit/${module} PROPERTIES LABELS "unit;device" TIMEOUT 600)
 endforeach()

@@ -155,12 +155,40 @@ static void test_unsigned(void **state)
     }
 }
 
+static void shortest(void **state)
+{
+    (void)state;
+    static const struct {
+        double value;
+        const char *text;
+    } cases[] = {
+        {0, "0"},
+        {-0.0, "-0"},
+        {0.1, "0.1"},
+        {(double)0.1f, "0.1"},
+        {1.0 / 3, "0.3333333333333333"},
+        {(double)(1.0f / 3), "0.33333334"},
+        {16777216, "16777216"},
+        {0x1p-149, "1e-45"},
+        {-2.5, "-2.5"},
+        {INFINITY, "inf"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        char text[NUMBER_TEXT];
+        print_shortest(cases[i].value, text);
+        assert_string_equal(text, cases[i].text);
+    }
+    char text[NUMBER_TEXT];
+    print_shortest(NAN, text);
+    assert_non_null(strstr(text, "nan"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_doubles),       cmocka_unit_test(test_not_doubles),
         cmocka_unit_test(test_length_counts), cmocka_unit_test(test_round_trip_and_locale),
-        cmocka_unit_test(test_unsigned),
+        cmocka_unit_test(test_unsigned),      cmocka_unit_test(shortest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
