@@ -1,5 +1,6 @@
 #include "number.h"
 
+#include <float.h>
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>
@@ -56,6 +57,25 @@ bool parse_double(const char *text, size_t length, double *value)
         return false;
     *value = parsed;
     return true;
+}
+
+const char *format_double(double value, char text[NUMBER_TEXT_SIZE])
+{
+    locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0), own_locale = (locale_t)0;
+    if (c_locale)
+        own_locale = uselocale(c_locale);
+    int digits = 1;
+    do
+        snprintf(text, NUMBER_TEXT_SIZE, "%.*e", digits - 1, value);
+    while (strtod(text, NULL) != value && ++digits <= DBL_DECIMAL_DIG);
+    long exponent = strtol(strchr(text, 'e') + 1, NULL, 10);
+    if (exponent >= -5 && exponent < DBL_DIG)
+        snprintf(text, NUMBER_TEXT_SIZE, "%.*f", (int)fmax(0, (double)(digits - 1 - exponent)), value);
+    if (c_locale) {
+        uselocale(own_locale);
+        freelocale(c_locale);
+    }
+    return text;
 }
 
 bool parse_unsigned(const char *text, size_t length, unsigned long max, unsigned long *value)

@@ -13,6 +13,10 @@ enum { NUMBER_MAX_LENGTH = 500 }; /* characters; longer texts are not numbers */
  * double becomes the nearest double, perhaps 0. */
 bool parse_double(const char *text, size_t length, double *value);
 
+/* The fewest digits that parse_double() reads as this finite value; returns text. */
+enum { NUMBER_TEXT_SIZE = 32 };
+const char *format_double(double value, char text[NUMBER_TEXT_SIZE]);
+
 /* Digits only, at most max. */
 bool parse_unsigned(const char *text, size_t length, unsigned long max, unsigned long *value);
 

@@ -9,6 +9,7 @@ function(add_unit_test module)
 endfunction()
 
 add_unit_test(bench)
+add_unit_test(camera_motion)
 add_unit_test(compare)
 if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND NOT VKWHITTED_SANITIZE)
     add_unit_test(convergence) # dear, and the same bits in all builds

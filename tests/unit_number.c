@@ -88,6 +88,34 @@ static void test_length_counts(void **state)
     assert_false(parse_double(digits, NUMBER_MAX_LENGTH + 1, &value));
 }
 
+static void test_format_double(void **state)
+{
+    (void)state;
+    static const struct {
+        double value;
+        const char *text;
+    } cases[] = {
+        {0, "0"},
+        {-0.0, "-0"},
+        {60, "60"},
+        {-1.5, "-1.5"},
+        {0.1, "0.1"},
+        {0.1 + 0.2, "0.30000000000000004"},
+        {123456, "123456"},
+        {1.0 / 3, "0.3333333333333333"},
+        {1e-5, "0.00001"},
+        {1e-6, "1e-06"},
+        {1e14, "100000000000000"},
+        {1e15, "1e+15"},
+        {0x1p-1074, "5e-324"},
+        {-0x1.fffffffffffffp+1023, "-1.7976931348623157e+308"},
+    };
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        char text[NUMBER_TEXT_SIZE];
+        assert_string_equal(format_double(cases[i].value, text), cases[i].text);
+    }
+}
+
 /* Every double printed with 17 digits must come back, in any locale that this machine has. */
 static void test_round_trip_and_locale(void **state)
 {
@@ -189,6 +217,7 @@ int main(void)
         cmocka_unit_test(test_doubles),       cmocka_unit_test(test_not_doubles),
         cmocka_unit_test(test_length_counts), cmocka_unit_test(test_round_trip_and_locale),
         cmocka_unit_test(test_unsigned),      cmocka_unit_test(shortest),
+        cmocka_unit_test(test_format_double),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
