@@ -8,32 +8,12 @@
 
 #include "number.h"
 #include "probe.h"
+#include "window_system.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 
 static const char validation_layer[] = "VK_LAYER_KHRONOS_validation";
-
-const char *vulkan_result_name(VkResult result)
-{
-#define NAME(name)                                                                                           \
-    case name:                                                                                               \
-        return #name
-    switch (result) {
-        NAME(VK_ERROR_OUT_OF_HOST_MEMORY);
-        NAME(VK_ERROR_OUT_OF_DEVICE_MEMORY);
-        NAME(VK_ERROR_INITIALIZATION_FAILED);
-        NAME(VK_ERROR_DEVICE_LOST);
-        NAME(VK_ERROR_MEMORY_MAP_FAILED);
-        NAME(VK_ERROR_LAYER_NOT_PRESENT);
-        NAME(VK_ERROR_EXTENSION_NOT_PRESENT);
-        NAME(VK_ERROR_FEATURE_NOT_PRESENT);
-        NAME(VK_ERROR_INCOMPATIBLE_DRIVER);
-        NAME(VK_ERROR_TOO_MANY_OBJECTS);
-        NAME(VK_INCOMPLETE);
-        NAME(VK_TIMEOUT);
-    default:
-        return "VkResult not known to vkwhitted";
-    }
-#undef NAME
-}
 
 static VKAPI_ATTR VkBool32 VKAPI_CALL report_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                      VkDebugUtilsMessageTypeFlagsEXT types,
@@ -43,6 +23,8 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL report_message(VkDebugUtilsMessageSeverity
     struct vulkan_context *context = user;
     (void)types;
     (void)severity;
+    if (context->presents && window_system_lost())
+        return VK_FALSE; /* the layer asks a display that has gone away, and complains of the answer */
     atomic_fetch_add(&context->validation_messages, 1);
     log_error("Vulkan validation: %s", data->pMessage);
     return VK_FALSE;
@@ -62,8 +44,30 @@ static bool has_validation_layer(void)
     return found;
 }
 
+/* The instance's extensions; false (reported) where pictures cannot be shown. */
+static bool list_extensions(bool presents, bool validate, const char **names, uint32_t most, uint32_t *count)
+{
+    uint32_t window_count = 0;
+    const char **window_names = presents ? glfwGetRequiredInstanceExtensions(&window_count) : NULL;
+    if (presents && (!window_names || window_count >= most)) {
+        log_error("no Vulkan driver here can show pictures in a window");
+        return false;
+    }
+    *count = 0;
+    for (uint32_t i = 0; i < window_count; ++i)
+        names[(*count)++] = window_names[i];
+    if (validate)
+        names[(*count)++] = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    return true;
+}
+
 static enum status create_instance(struct vulkan_context *context, bool validate)
 {
+    const char *extensions[8];
+    uint32_t extension_count;
+    if (!list_extensions(context->presents, validate, extensions, sizeof extensions / sizeof *extensions,
+                         &extension_count))
+        return STATUS_UNABLE;
     if (validate && !has_validation_layer()) {
         log_error("--validate needs the layer %s (Debian: vulkan-validationlayers)", validation_layer);
         return STATUS_UNABLE;
@@ -95,8 +99,8 @@ static enum status create_instance(struct vulkan_context *context, bool validate
                         },
                     .enabledLayerCount = validate ? 1 : 0,
                     .ppEnabledLayerNames = (const char *[]){validation_layer},
-                    .enabledExtensionCount = validate ? 1 : 0,
-                    .ppEnabledExtensionNames = (const char *[]){VK_EXT_DEBUG_UTILS_EXTENSION_NAME},
+                    .enabledExtensionCount = extension_count,
+                    .ppEnabledExtensionNames = extensions,
                 },
                 NULL, &context->instance);
     if (validate) {
@@ -129,13 +133,15 @@ error:
     return NULL;
 }
 
-static bool find_compute_queue(VkPhysicalDevice device, uint32_t *family, uint32_t *timestamp_bits)
+static bool find_compute_queue(const struct vulkan_context *context, VkPhysicalDevice device,
+                               uint32_t *family, uint32_t *timestamp_bits)
 {
     VkQueueFamilyProperties families[16];
     uint32_t count = sizeof families / sizeof *families;
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families);
     for (uint32_t i = 0; i < count; ++i) {
-        if (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) {
+        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) &&
+            (!context->presents || glfwGetPhysicalDevicePresentationSupport(context->instance, device, i))) {
             *family = i;
             *timestamp_bits = families[i].timestampValidBits;
             return true;
@@ -145,10 +151,11 @@ static bool find_compute_queue(VkPhysicalDevice device, uint32_t *family, uint32
 }
 
 /* Higher is better; 0: cannot be used. */
-static int rank_device(VkPhysicalDevice device, const VkPhysicalDeviceProperties *properties)
+static int rank_device(const struct vulkan_context *context, VkPhysicalDevice device,
+                       const VkPhysicalDeviceProperties *properties)
 {
     uint32_t family, bits;
-    if (properties->apiVersion < VK_API_VERSION_1_2 || !find_compute_queue(device, &family, &bits))
+    if (properties->apiVersion < VK_API_VERSION_1_2 || !find_compute_queue(context, device, &family, &bits))
         return 0;
     switch (properties->deviceType) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
@@ -175,24 +182,28 @@ static bool device_matches(const char *choice, uint32_t index, const char *name)
 }
 
 /* The number of the best device that matches the choice, or count (reported). */
-static uint32_t choose_device(const char *choice, const VkPhysicalDevice *devices, uint32_t count)
+static uint32_t choose_device(const struct vulkan_context *context, const char *choice,
+                              const VkPhysicalDevice *devices, uint32_t count)
 {
+    const char *needed = context->presents ? " that can show pictures in a window" : "";
     uint32_t chosen = count;
     int best_rank = 0;
     for (uint32_t i = 0; i < count; ++i) {
         VkPhysicalDeviceProperties properties;
         vkGetPhysicalDeviceProperties(devices[i], &properties);
-        int rank = rank_device(devices[i], &properties);
+        int rank = rank_device(context, devices[i], &properties);
         if (rank > best_rank && device_matches(choice, i, properties.deviceName)) {
             chosen = i;
             best_rank = rank;
         }
     }
     if (chosen == count && choice)
-        log_error("--device %s: no usable device of this number or name; 'vkwhitted devices' lists them",
-                  choice);
+        log_error("--device %s: no usable device of this number or name%s; 'vkwhitted devices' lists them",
+                  choice, needed);
     else if (chosen == count)
-        log_error("no device offers Vulkan 1.2 and a compute queue; 'vkwhitted devices' lists what is there");
+        log_error(
+            "no device offers Vulkan 1.2 and a compute queue%s; 'vkwhitted devices' lists what is there",
+            needed);
     return chosen;
 }
 
@@ -202,7 +213,7 @@ static enum status open_device(struct vulkan_context *context, const char *choic
     VkPhysicalDevice *devices = list_devices(context->instance, &count);
     if (!devices)
         return STATUS_UNABLE;
-    uint32_t chosen = choose_device(choice, devices, count);
+    uint32_t chosen = choose_device(context, choice, devices, count);
     context->physical_device = chosen < count ? devices[chosen] : VK_NULL_HANDLE;
     free(devices);
     if (!context->physical_device)
@@ -226,7 +237,7 @@ static enum status open_device(struct vulkan_context *context, const char *choic
     context->properties = properties.properties;
     context->driver.pNext = NULL;
     vkGetPhysicalDeviceMemoryProperties(context->physical_device, &context->memory);
-    find_compute_queue(context->physical_device, &context->queue_family, &context->timestamp_bits);
+    find_compute_queue(context, context->physical_device, &context->queue_family, &context->timestamp_bits);
     VkPhysicalDeviceFeatures available;
     vkGetPhysicalDeviceFeatures(context->physical_device, &available);
     context->has_float64 = available.shaderFloat64;
@@ -241,6 +252,8 @@ static enum status open_device(struct vulkan_context *context, const char *choic
                             .queueCount = 1,
                             .pQueuePriorities = &(float){1},
                         },
+                    .enabledExtensionCount = context->presents ? 1 : 0,
+                    .ppEnabledExtensionNames = (const char *[]){VK_KHR_SWAPCHAIN_EXTENSION_NAME},
                     .pEnabledFeatures = &(VkPhysicalDeviceFeatures){.shaderFloat64 = available.shaderFloat64},
                 },
                 NULL, &context->device);
@@ -260,7 +273,10 @@ enum status vulkan_context_create(const struct vulkan_options *options, struct v
         log_error("no memory for the Vulkan context");
         return STATUS_UNABLE;
     }
-    enum status status = create_instance(*context, options->validate);
+    enum status status = options->presents ? window_system_open() : STATUS_DONE;
+    (*context)->presents = options->presents && status == STATUS_DONE;
+    if (status == STATUS_DONE)
+        status = create_instance(*context, options->validate);
     if (status == STATUS_DONE)
         status = open_device(*context, options->device);
     if (status != STATUS_DONE)
@@ -284,6 +300,8 @@ enum status vulkan_context_destroy(struct vulkan_context **pointer)
     }
     if (context->instance)
         vkDestroyInstance(context->instance, NULL);
+    if (context->presents)
+        window_system_close();
     unsigned messages = atomic_load(&context->validation_messages);
     free(context);
     if (messages > 0)
@@ -298,7 +316,8 @@ static const char *type_name(VkPhysicalDeviceType type)
 }
 
 /* Returns whether it can be used. */
-static bool print_device(VkPhysicalDevice device, uint32_t index, bool chosen)
+static bool print_device(const struct vulkan_context *context, VkPhysicalDevice device, uint32_t index,
+                         bool chosen)
 {
     VkPhysicalDeviceDriverProperties driver = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties2 = {
@@ -311,7 +330,7 @@ static bool print_device(VkPhysicalDevice device, uint32_t index, bool chosen)
     VkPhysicalDeviceFeatures features;
     vkGetPhysicalDeviceFeatures(device, &features);
     printf("%c %" PRIu32 "  %s\n", chosen ? '*' : ' ', index, properties->deviceName);
-    bool usable = rank_device(device, properties) > 0;
+    bool usable = rank_device(context, device, properties) > 0;
     printf("      type            %s\n", type_name(properties->deviceType));
     printf("      driver          %s %s\n", driver.driverName, driver.driverInfo);
     printf("      Vulkan          %u.%u.%u%s\n", VK_API_VERSION_MAJOR(properties->apiVersion),
@@ -332,7 +351,8 @@ static enum status print_arithmetic(const struct vulkan_options *options, uint32
     char choice[16], text[256];
     struct vulkan_context *context;
     snprintf(choice, sizeof choice, "%" PRIu32, index);
-    enum status status = vulkan_context_create(&(struct vulkan_options){choice, options->validate}, &context);
+    enum status status = vulkan_context_create(
+        &(struct vulkan_options){.device = choice, .validate = options->validate}, &context);
     if (status != STATUS_DONE)
         return status;
     status = probe_arithmetic(context);
@@ -355,9 +375,9 @@ enum status vulkan_print_devices(const struct vulkan_options *options)
     uint32_t count = 0;
     VkPhysicalDevice *devices = status == STATUS_DONE ? list_devices(context->instance, &count) : NULL;
     if (devices) {
-        uint32_t chosen = choose_device(options->device, devices, count);
+        uint32_t chosen = choose_device(context, options->device, devices, count);
         for (uint32_t i = 0; i < count && status == STATUS_DONE; ++i)
-            if (print_device(devices[i], i, i == chosen))
+            if (print_device(context, devices[i], i, i == chosen))
                 status = print_arithmetic(options, i);
         if (chosen == count)
             status = options->device ? STATUS_REFUSED : STATUS_UNABLE;

@@ -6,8 +6,9 @@
 
 #include "arithmetic.h"
 #include "status.h"
+#include "vulkan_result.h"
 
-/* An instance and one device with a compute queue. */
+/* An instance and one device with a compute queue, which may also present. */
 struct vulkan_context {
     VkInstance instance;
     VkDebugUtilsMessengerEXT messenger;
@@ -16,6 +17,7 @@ struct vulkan_context {
     VkPhysicalDeviceDriverProperties driver;
     VkPhysicalDeviceMemoryProperties memory;
     VkDevice device;
+    bool presents; /* swapchains and surfaces are enabled, and the window system is open */
     uint32_t queue_family;
     bool has_float64;        /* enabled */
     uint32_t timestamp_bits; /* 0: the queue has no timestamps */
@@ -27,10 +29,12 @@ struct vulkan_context {
 struct vulkan_options {
     const char *device; /* number or part of the name of a device; NULL: the best one */
     bool validate;      /* Khronos validation layer, core and synchronisation checks */
+    bool presents;      /* opens the window system and takes a device that can show pictures in a window */
 };
 
 /* Opens a device. On failure *context is NULL and the reason is reported: STATUS_REFUSED for a device that
- * does not exist, STATUS_UNABLE for a machine without Vulkan or, with validate, without the layer. */
+ * does not exist, STATUS_UNABLE for a machine without Vulkan or, with validate, without the layer or, with
+ * presents, without a display. */
 enum status vulkan_context_create(const struct vulkan_options *options, struct vulkan_context **context);
 
 /* Destroys and sets *context to NULL. Returns STATUS_UNABLE if the validation layer has had anything to say,
@@ -40,18 +44,5 @@ enum status vulkan_context_destroy(struct vulkan_context **context);
 /* Prints the devices, their drivers and the limits that matter to standard output, with a * at the one that
  * these options choose. */
 enum status vulkan_print_devices(const struct vulkan_options *options);
-
-/* A VkResult's name. */
-const char *vulkan_result_name(VkResult result);
-
-/* Reports a failed call by its name and jumps to the function's error label. */
-#define VULKAN_CALL(function, ...)                                                                           \
-    do {                                                                                                     \
-        VkResult vulkan_result_ = function(__VA_ARGS__);                                                     \
-        if (vulkan_result_ != VK_SUCCESS) {                                                                  \
-            log_error("%s: %s", #function, vulkan_result_name(vulkan_result_));                              \
-            goto error;                                                                                      \
-        }                                                                                                    \
-    } while (0)
 
 #endif

@@ -13,7 +13,8 @@ const char *__lsan_default_suppressions(void)
 {
     return "leak:libvulkan_lvp\n"
            "leak:libLLVM\n"
-           "leak:libVkLayer_khronos_validation\n";
+           "leak:libVkLayer_khronos_validation\n"
+           "leak:libX11\n"; /* what a call held when the display went away */
 }
 
 /* In place of the C library's: the Vulkan loader unloads nothing. */

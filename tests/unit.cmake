@@ -14,6 +14,7 @@ add_unit_test(compare)
 if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND NOT VKWHITTED_SANITIZE)
     add_unit_test(convergence) # dear, and the same bits in all builds
 endif()
+add_unit_test(fit)
 add_unit_test(image)
 add_unit_test(markup)
 add_unit_test(number)

@@ -1,0 +1,153 @@
+#include <math.h>
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+#include "test_window.h"
+
+/* Adds up what comes before the R that is pressed now. */
+static struct display_input gather_input(void)
+{
+    struct display_input sum = {0};
+    bool complete = false;
+    x11_window_key(&window, XK_r, 0);
+    for (double start = clock_ms(); !complete && clock_ms() < start + patience_ms;) {
+        struct display_input input = wait_for_input(1);
+        sum.orbit_x += input.orbit_x;
+        sum.orbit_y += input.orbit_y;
+        sum.pan_x += input.pan_x;
+        sum.pan_y += input.pan_y;
+        sum.zoom += input.zoom;
+        sum.closed = sum.closed || input.closed;
+        sum.print_camera = sum.print_camera || input.print_camera;
+        sum.save = sum.save || input.save;
+        sum.difference = sum.difference != input.difference;
+        complete = input.reset;
+    }
+    assert_true(complete);
+    return sum;
+}
+
+static void assert_input(const struct display_input *input, const struct display_input *expected)
+{
+    const double numbers[][2] = {{input->orbit_x, expected->orbit_x},
+                                 {input->orbit_y, expected->orbit_y},
+                                 {input->pan_x, expected->pan_x},
+                                 {input->pan_y, expected->pan_y},
+                                 {input->zoom, expected->zoom}};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i)
+        if (!(fabs(numbers[i][0] - numbers[i][1]) < 1e-12))
+            fail_msg("number %zu is %g instead of %g", i, numbers[i][0], numbers[i][1]);
+    assert_int_equal(input->closed, expected->closed);
+    assert_int_equal(input->print_camera, expected->print_camera);
+    assert_int_equal(input->save, expected->save);
+    assert_int_equal(input->difference, expected->difference);
+}
+
+static void test_keys(void **state)
+{
+    (void)state;
+    static const struct {
+        KeySym symbol;
+        unsigned modifiers;
+        struct display_input input;
+    } cases[] = {
+        {XK_P, LockMask, {.print_camera = true}},
+        {XK_p, 0, {.print_camera = true}},
+        {XK_s, 0, {.save = true}},
+        {XK_d, 0, {.difference = true}},
+        {XK_Escape, 0, {.closed = true}},
+        {XK_plus, ShiftMask, {.zoom = 1}},
+        {XK_minus, 0, {.zoom = -1}},
+        {XK_KP_Add, 0, {.zoom = 1}},
+        {XK_KP_Subtract, 0, {.zoom = -1}},
+        {XK_Left, 0, {.orbit_x = -1.0 / 32}},
+        {XK_Right, 0, {.orbit_x = 1.0 / 32}},
+        {XK_Up, 0, {.orbit_y = -1.0 / 32}},
+        {XK_Down, 0, {.orbit_y = 1.0 / 32}},
+        {XK_Left, ShiftMask, {.pan_x = -1.0 / 32}},
+        {XK_Down, ShiftMask, {.pan_y = 1.0 / 32}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        x11_window_key(&window, XK_x, 0);
+        x11_window_key(&window, XK_s, ControlMask);
+        x11_window_key(&window, cases[i].symbol, cases[i].modifiers);
+        struct display_input input = gather_input();
+        assert_input(&input, &cases[i].input);
+    }
+    x11_window_key(&window, XK_d, 0);
+    x11_window_key(&window, XK_d, 0);
+    struct display_input input = gather_input();
+    assert_input(&input, &(struct display_input){0});
+}
+
+static void test_pointer(void **state)
+{
+    (void)state;
+    x11_window_resize(&window, 400, 400); /* the picture is 250 high in it */
+    assert_shows(400, 400);
+    for (unsigned shift = 0; shift <= ShiftMask; shift += ShiftMask) {
+        x11_window_move_pointer(&window, 100, 100);
+        x11_window_button(&window, Button1, true, shift);
+        x11_window_move_pointer(&window, 110, 95);
+        x11_window_move_pointer(&window, 150, 350);
+        x11_window_button(&window, Button1, false, 0);
+        x11_window_move_pointer(&window, 0, 0);
+        struct display_input input = gather_input();
+        struct display_input expected = {.orbit_x = 50 / 250.0, .orbit_y = 250 / 250.0};
+        if (shift)
+            expected = (struct display_input){.pan_x = 50 / 250.0, .pan_y = 250 / 250.0};
+        assert_input(&input, &expected);
+    }
+    x11_window_button(&window, Button4, true, 0);
+    x11_window_button(&window, Button4, true, 0);
+    x11_window_button(&window, Button5, true, 0);
+    struct display_input input = gather_input();
+    assert_input(&input, &(struct display_input){.zoom = 1});
+    x11_window_close(&window);
+    input = gather_input();
+    assert_input(&input, &(struct display_input){.closed = true});
+}
+
+static void *wake_later(void *user)
+{
+    (void)user;
+    nanosleep(&(struct timespec){.tv_nsec = 100000000}, NULL);
+    display_wake();
+    return NULL;
+}
+
+static void test_wake(void **state)
+{
+    (void)state;
+    assert_shows(WIDTH, HEIGHT);
+    pthread_t thread;
+    double start = clock_ms();
+    assert_int_equal(pthread_create(&thread, NULL, wake_later, NULL), 0);
+    wait_for_input(patience_ms / 1e3);
+    assert_true(clock_ms() < start + patience_ms / 2);
+    pthread_join(thread, NULL);
+    display_wake();
+    wait_for_input(patience_ms / 1e3);
+    assert_true(clock_ms() < start + patience_ms / 2);
+    start = clock_ms();
+    wait_for_input(0.25);
+    assert_true(clock_ms() >= start + 250);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_keys, open_window, close_window),
+        cmocka_unit_test_setup_teardown(test_pointer, open_window, close_window),
+        cmocka_unit_test_setup_teardown(test_wake, open_window, close_window),
+    };
+    return cmocka_run_group_tests(tests, open_context, close_context);
+}
