@@ -5,16 +5,7 @@
 #include "job.h"
 #include "json_file.h"
 #include "output_file.h"
-
-static enum status check_outputs(const struct options *options)
-{
-    enum status status = STATUS_DONE;
-    for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
-        status = image_write_check(options->outputs[i]);
-    if (status == STATUS_DONE && options->stats)
-        status = output_file_check(options->stats);
-    return status;
-}
+#include "outputs.h"
 
 static bool writes_exr(const struct options *options)
 {
@@ -22,23 +13,6 @@ static bool writes_exr(const struct options *options)
         if (image_format_of(options->outputs[i]) == IMAGE_FORMAT_EXR)
             return true;
     return false;
-}
-
-static enum status write_outputs(const struct options *options, const struct job *job,
-                                 const struct rendering *rendering, const char *device)
-{
-    const struct image_metadata metadata = {
-        .transfer = options->transfer,
-        .scene = options->scenes[0],
-        .device = device,
-        .precision = precision_name(options->precision),
-        .max_bounces = job->max_bounces,
-    };
-    enum status status = STATUS_DONE;
-    for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
-        status = interrupt_requested() ? STATUS_INTERRUPTED
-                                       : image_write(&rendering->image, options->outputs[i], &metadata);
-    return status;
 }
 
 /* Rays that max_bounces cuts off count against --max-error, and may be too much for it. */
@@ -82,7 +56,7 @@ static enum status deliver(const struct options *options, const struct job *job,
     if (options->has_max_error)
         report_truncation(options, job, &rendering->image);
     double start = clock_ms();
-    enum status status = write_outputs(options, job, rendering, device);
+    enum status status = outputs_write(options, job, &rendering->image, device);
     double write_ms = clock_ms() - start;
     if (status == STATUS_DONE && options->stats)
         status = write_stats(options, job, rendering, device, driver, write_ms);
@@ -116,7 +90,9 @@ static enum status render_vulkan(const struct options *options, const struct job
 
 enum status command_render(const struct options *options)
 {
-    enum status status = check_outputs(options);
+    enum status status = outputs_check(options);
+    if (status == STATUS_DONE && options->stats)
+        status = output_file_check(options->stats);
     if (status != STATUS_DONE)
         return status;
     struct job job;

@@ -14,13 +14,11 @@ static enum status choose_window(const struct options *options, const struct pic
     return STATUS_REFUSED;
 }
 
-enum status job_create(const struct options *options, const char *scene_path, struct job *job)
+enum status job_create_from(const struct options *options, struct scene *scene, struct job *job)
 {
-    *job = (struct job){0};
-    struct scene *scene = &job->scene;
-    enum status status = scene_read(scene_path, scene);
-    if (status != STATUS_DONE)
-        return status;
+    *job = (struct job){.scene = *scene};
+    *scene = (struct scene){0};
+    scene = &job->scene;
     const struct picture_settings settings = {
         .width = options->width ? options->width : scene->width,
         .height = options->height ? options->height : scene->height,
@@ -40,12 +38,20 @@ enum status job_create(const struct options *options, const char *scene_path, st
         .count_rays = options->stats != NULL,
         .quiet = options->quiet,
     };
-    status = choose_window(options, &settings, &job->plan.window);
+    enum status status = choose_window(options, &settings, &job->plan.window);
     if (status == STATUS_DONE)
         status = pack_scene(scene, &settings, &job->packed);
     if (status != STATUS_DONE)
         job_destroy(job);
     return status;
+}
+
+enum status job_create(const struct options *options, const char *scene_path, struct job *job)
+{
+    *job = (struct job){0};
+    struct scene scene;
+    enum status status = scene_read(scene_path, &scene);
+    return status == STATUS_DONE ? job_create_from(options, &scene, job) : status;
 }
 
 void job_destroy(struct job *job)

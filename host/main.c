@@ -6,6 +6,7 @@
 #include "command_check.h"
 #include "command_pixel.h"
 #include "command_render.h"
+#include "command_watch.h"
 #include "options.h"
 
 static enum status run(const struct options *options)
@@ -19,6 +20,8 @@ static enum status run(const struct options *options)
         return command_bench(options);
     case COMMAND_PIXEL:
         return command_pixel(options);
+    case COMMAND_WATCH:
+        return command_watch(options);
     case COMMAND_DEVICES:
         return vulkan_print_devices(&options->vulkan);
     case COMMAND_COUNT:

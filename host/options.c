@@ -15,6 +15,7 @@ enum {
     CHECK = 1 << COMMAND_CHECK,
     BENCH = 1 << COMMAND_BENCH,
     PIXEL = 1 << COMMAND_PIXEL,
+    WATCH = 1 << COMMAND_WATCH,
     DEVICES = 1 << COMMAND_DEVICES,
 };
 
@@ -44,6 +45,8 @@ enum option_id {
     OPTION_CHART,
     OPTION_COMPARE,
     OPTION_QUICK,
+    OPTION_SHADERS,
+    OPTION_CHECK,
     OPTION_HELP,
     OPTION_VERSION,
 };
@@ -74,6 +77,8 @@ static const struct option long_options[] = {
     {"chart", required_argument, NULL, OPTION_CHART},
     {"compare", required_argument, NULL, OPTION_COMPARE},
     {"quick", no_argument, NULL, OPTION_QUICK},
+    {"shaders", required_argument, NULL, OPTION_SHADERS},
+    {"check", no_argument, NULL, OPTION_CHECK},
     {"help", no_argument, NULL, OPTION_HELP},
     {"version", no_argument, NULL, OPTION_VERSION},
     {0},
@@ -85,9 +90,13 @@ static int takers(int id)
     switch (id) {
     case 'o':
     case OPTION_TRANSFER:
+        return RENDER | WATCH;
     case OPTION_STATS:
     case OPTION_REPEAT:
         return RENDER;
+    case OPTION_SHADERS:
+    case OPTION_CHECK:
+        return WATCH;
     case OPTION_TOLERANCE:
     case OPTION_ALLOW:
     case OPTION_HEATMAP:
@@ -106,6 +115,7 @@ static int takers(int id)
         return RENDER | CHECK | BENCH;
     case OPTION_SIZE:
         return RENDER | CHECK | BENCH | PIXEL;
+        return RENDER | CHECK | WATCH | BENCH;
     case OPTION_DEVICE:
     case OPTION_VALIDATE:
     case 'q':
@@ -113,7 +123,7 @@ static int takers(int id)
     case 'h':
     case OPTION_HELP:
     case OPTION_VERSION:
-        return RENDER | CHECK | BENCH | PIXEL | DEVICES;
+        return RENDER | CHECK | BENCH | PIXEL | WATCH | DEVICES;
     case OPTION_FAST:
     case OPTION_CROP:
     case OPTION_THREADS:
@@ -312,6 +322,12 @@ static enum status read_option(int id, const char *argument, struct options *opt
     case OPTION_QUICK:
         options->quick = true;
         break;
+    case OPTION_SHADERS:
+        options->shaders = argument;
+        break;
+    case OPTION_CHECK:
+        options->check = true;
+        break;
     case 'q':
         options->quiet = true;
         log_set_verbosity(-1);
@@ -353,6 +369,10 @@ static enum status check_consistency(struct options *options)
         problem = "render takes one scene file";
     else if (options->command == COMMAND_PIXEL && options->precision == PRECISION_QUAD)
         problem = "pixel computes in float or double; see --against";
+    else if (options->command == COMMAND_WATCH && options->scene_count > 1)
+        problem = "watch takes one scene file";
+    else if (options->command == COMMAND_WATCH && options->output_count == 0)
+        problem = "watch needs -o FILE";
     else if (options->precision == PRECISION_QUAD && options->backend == BACKEND_VULKAN)
         problem = "--precision quad needs --backend cpu";
     else if (options->precision != PRECISION_FLOAT && (options->fast || options->against != PRECISION_FLOAT))
@@ -382,13 +402,13 @@ static enum status check_consistency(struct options *options)
 
 static enum status read_command(const char *name, enum command *command)
 {
-    static const char *const names[COMMAND_COUNT] = {"render", "check", "bench", "pixel", "devices"};
+    static const char *const names[COMMAND_COUNT] = {"render", "check", "watch", "bench", "pixel", "devices"};
     for (int i = 0; i < COMMAND_COUNT; ++i)
         if (strcmp(name, names[i]) == 0) {
             *command = (enum command)i;
             return STATUS_DONE;
         }
-    log_error("%s: expected a command: render, check, bench, pixel or devices; see 'vkwhitted --help'", name);
+    log_error("%s: expected a command: render, check, watch, bench or devices; see 'vkwhitted --help'", name);
     return STATUS_REFUSED;
 }
 

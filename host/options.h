@@ -9,7 +9,7 @@
 #include "render.h"
 #include "vulkan_context.h"
 
-enum command { COMMAND_RENDER, COMMAND_CHECK, COMMAND_BENCH, COMMAND_PIXEL, COMMAND_DEVICES, COMMAND_COUNT };
+enum command { COMMAND_RENDER, COMMAND_CHECK, COMMAND_WATCH, COMMAND_BENCH, COMMAND_PIXEL, COMMAND_DEVICES, COMMAND_COUNT };
 
 /* The command line, checked. Strings point into argv. */
 struct options {
@@ -45,6 +45,9 @@ struct options {
     bool quick;
     unsigned x, y; /* of pixel */
     bool quiet, verbose;
+    const char *shaders; /* folder; NULL: the one that came with the program */
+    bool check;          /* each picture that watch makes */
+    bool quiet;
 };
 
 /* Reads the command line; owns options->outputs, freed with options_destroy(). STATUS_REFUSED (reported) if

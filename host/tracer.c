@@ -6,27 +6,50 @@
 #include "probe.h"
 #include "vulkan_pipeline.h"
 
-/* Lays the scene's parts out in one buffer; a part has room for at least one element. */
+/* A part of the scene as it lies in memory; the buffer has room for at least one element. */
+struct scene_part {
+    const void *data;
+    size_t element_size, count;
+};
+
+static void list_parts(const struct packed_scene *scene, struct scene_part parts[SCENE_BINDINGS])
+{
+    parts[VIEW] = (struct scene_part){&scene->view, sizeof scene->view, 1};
+    parts[SPHERES] = (struct scene_part){scene->spheres, sizeof *scene->spheres, (size_t)scene->sphere_count};
+    parts[PLANES] = (struct scene_part){scene->planes, sizeof *scene->planes, (size_t)scene->plane_count};
+    parts[POINT_LIGHTS] = (struct scene_part){scene->point_lights, sizeof *scene->point_lights,
+                                              (size_t)scene->point_light_count};
+    parts[QUAD_LIGHTS] =
+        (struct scene_part){scene->quad_lights, sizeof *scene->quad_lights, (size_t)scene->quad_light_count};
+}
+
+static VkDeviceSize part_range(const struct scene_part parts[SCENE_BINDINGS], int i)
+{
+    return parts[i].element_size * (parts[i].count + (i == VIEW ? 0 : 1));
+}
+
+static void copy_scene(struct tracer *tracer, const struct packed_scene *scene)
+{
+    struct scene_part parts[SCENE_BINDINGS];
+    list_parts(scene, parts);
+    for (int i = 0; i < SCENE_BINDINGS; ++i) {
+        unsigned char *place = (unsigned char *)tracer->scene.mapped + tracer->bindings[i].offset;
+        if (parts[i].count > 0)
+            memcpy(place, parts[i].data, parts[i].element_size * parts[i].count);
+    }
+}
+
+/* Lays the scene's parts out in one buffer. */
 static enum status upload_scene(struct tracer *tracer, const struct packed_scene *scene)
 {
-    const struct {
-        const void *data;
-        size_t element_size, count;
-    } parts[SCENE_BINDINGS] = {
-        [VIEW] = {&scene->view, sizeof scene->view, 1},
-        [SPHERES] = {scene->spheres, sizeof *scene->spheres, (size_t)scene->sphere_count},
-        [PLANES] = {scene->planes, sizeof *scene->planes, (size_t)scene->plane_count},
-        [POINT_LIGHTS] = {scene->point_lights, sizeof *scene->point_lights, (size_t)scene->point_light_count},
-        [QUAD_LIGHTS] = {scene->quad_lights, sizeof *scene->quad_lights, (size_t)scene->quad_light_count},
-    };
     static const VkDeviceSize alignment = 256; /* the largest offset alignment that Vulkan allows a device */
+    struct scene_part parts[SCENE_BINDINGS];
     VkDeviceSize size = 0;
+    list_parts(scene, parts);
     for (int i = 0; i < SCENE_BINDINGS; ++i) {
-        VkDeviceSize range = parts[i].element_size * (parts[i].count + (i == VIEW ? 0 : 1));
+        VkDeviceSize range = part_range(parts, i);
         tracer->bindings[i] = (VkDescriptorBufferInfo){.offset = size, .range = range};
         size += (range + alignment - 1) / alignment * alignment;
-        if (range > tracer->context->properties.limits.maxUniformBufferRange)
-            tracer->scene_in_storage = true;
     }
     enum status status = vulkan_buffer_create(
         tracer->context, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
@@ -37,11 +60,9 @@ static enum status upload_scene(struct tracer *tracer, const struct packed_scene
         &tracer->scene);
     if (status != STATUS_DONE)
         return status;
-    for (int i = 0; i < SCENE_BINDINGS; ++i) {
+    for (int i = 0; i < SCENE_BINDINGS; ++i)
         tracer->bindings[i].buffer = tracer->scene.buffer;
-        unsigned char *place = (unsigned char *)tracer->scene.mapped + tracer->bindings[i].offset;
-        memcpy(place, parts[i].data, parts[i].element_size * parts[i].count);
-    }
+    copy_scene(tracer, scene);
     return STATUS_DONE;
 }
 
@@ -69,32 +90,51 @@ static enum status create_picture(struct tracer *tracer)
 }
 
 /* The variant of the shader that suits the device and what is asked for. */
-static enum whitted_variant choose_variant(const struct tracer *tracer)
+static enum whitted_variant choose_variant(const struct arithmetic *arithmetic,
+                                           const struct tracer_options *options)
 {
-    const struct arithmetic *arithmetic = &tracer->context->arithmetic;
     bool native = arithmetic->division_exact && arithmetic->root_exact;
-    bool events = tracer->options.event_room > 0;
-    if (tracer->options.double_precision)
+    bool events = options->event_room > 0;
+    if (options->double_precision)
         return events ? WHITTED_DOUBLE_EVENTS : WHITTED_DOUBLE;
-    if (tracer->options.fast)
+    if (options->fast)
         return WHITTED_FAST;
     if (native)
         return events ? WHITTED_EXACT_EVENTS : WHITTED_EXACT;
     return events ? WHITTED_CORRECTED_EVENTS : WHITTED_CORRECTED;
 }
 
-enum status tracer_build_pipeline(struct tracer *tracer)
+struct shader_choice tracer_shader(const struct vulkan_context *context, const struct packed_scene *scene,
+                                   const struct tracer_options *options)
 {
-    const struct tracer_options *options = &tracer->options;
+    struct shader_choice choice = {choose_variant(&context->arithmetic, options), false};
+    struct scene_part parts[SCENE_BINDINGS];
+    list_parts(scene, parts);
+    for (int i = 0; i < SCENE_BINDINGS; ++i)
+        choice.scene_in_storage |= part_range(parts, i) > context->properties.limits.maxUniformBufferRange;
+    return choice;
+}
+
+static struct specialization constants_of(const struct tracer *tracer, const struct packed_scene *scene)
+{
     const struct arithmetic *arithmetic = &tracer->context->arithmetic;
-    const struct spirv code = whitted_spirv(choose_variant(tracer), tracer->scene_in_storage);
-    struct specialization constants = specialize(tracer->packed, &tracer->shape, options->output);
+    struct specialization constants = specialize(scene, &tracer->shape, tracer->options.output);
     constants.corrected_division = !arithmetic->division_exact;
     constants.corrected_root = !arithmetic->root_exact;
     /* lavapipe's limit is 65535; what is left is for loops of the driver's own making */
     constants.turn_limit =
         tracer->context->driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE ? 65000 : UINT32_MAX;
     constants.patient = tracer->patient;
+    return constants;
+}
+
+enum status tracer_build_pipeline(struct tracer *tracer)
+{
+    const struct tracer_options *options = &tracer->options;
+    const struct shader_choice choice = tracer_shader(tracer->context, tracer->packed, options);
+    const struct spirv code =
+        options->code.words ? options->code : whitted_spirv(choice.variant, choice.scene_in_storage);
+    const struct specialization constants = constants_of(tracer, tracer->packed);
     double start = clock_ms();
     enum status status =
         vulkan_pipeline_create(tracer->context, code, tracer->pipeline_layout, (const uint32_t *)&constants,
@@ -128,6 +168,19 @@ static void write_bindings(const struct tracer *tracer)
                                    .pBufferInfo = &tracer->bindings[i],
                                },
                                0, NULL);
+}
+
+bool tracer_update(struct tracer *tracer, const struct packed_scene *scene)
+{
+    const struct specialization built = constants_of(tracer, tracer->packed);
+    const struct specialization needed = constants_of(tracer, scene);
+    if (memcmp(&built, &needed, sizeof built) != 0)
+        return false;
+    copy_scene(tracer, scene);
+    tracer->packed = scene;
+    tracer->picture_width = (unsigned)scene->width;
+    tracer->picture_height = (unsigned)scene->height;
+    return true;
 }
 
 static enum status create_layout(struct tracer *tracer)
@@ -295,8 +348,10 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
         log_error("%s has no double precision (shaderFloat64)", context->properties.deviceName);
         status = STATUS_UNABLE;
     }
-    if (status == STATUS_DONE)
+    if (status == STATUS_DONE) {
+        tracer->scene_in_storage = tracer_shader(context, scene, options).scene_in_storage;
         status = upload_scene(tracer, scene);
+    }
     if (status == STATUS_DONE)
         status = create_picture(tracer);
     if (status == STATUS_DONE)

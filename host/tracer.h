@@ -5,6 +5,7 @@
 #include "packed_scene.h"
 #include "progress.h"
 #include "vulkan_context.h"
+#include "whitted_spirv.h"
 
 /* The compute pipeline for one packed scene, specialised to it. */
 struct tracer;
@@ -16,7 +17,16 @@ struct tracer_options {
     unsigned group_width, group_height; /* invocations; 0: a choice that suits the device */
     unsigned tile_pixels;               /* most pixels a dispatch; 0: likewise */
     uint32_t event_room;                /* 0: no events are recorded; exact mode only */
+    struct spirv code; /* of the shader that tracer_shader() tells; empty: the built-in one */
 };
+
+/* Which of the shader's variants a tracer needs, on a device whose arithmetic is known. */
+struct shader_choice {
+    enum whitted_variant variant;
+    bool scene_in_storage;
+};
+struct shader_choice tracer_shader(const struct vulkan_context *context, const struct packed_scene *scene,
+                                   const struct tracer_options *options);
 
 /* Part of the picture, in pixels from the top left. */
 struct window {
@@ -28,6 +38,11 @@ struct window {
 enum status tracer_create(struct vulkan_context *context, const struct packed_scene *scene,
                           const struct tracer_options *options, struct tracer **tracer);
 void tracer_destroy(struct tracer **tracer);
+
+/* Gives the tracer another scene, which must outlive it in the place of the old one, if the pipeline is also
+ * right for that: if no number of things and no feature is different. Otherwise returns false and changes
+ * nothing. */
+bool tracer_update(struct tracer *tracer, const struct packed_scene *scene);
 
 /* Renders the window of the picture into image, which has the window's size (and, if it has room for it,
  * the values in double precision). *dispatch_ms gets the time that

@@ -36,3 +36,19 @@ struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage)
 #undef VARIANT
     return variants[variant][scene_in_storage];
 }
+
+const char *whitted_defines(enum whitted_variant variant, bool scene_in_storage)
+{
+#define VARIANT(defines)                                                                                     \
+    {                                                                                                        \
+        defines, defines "#define SCENE_IN_STORAGE\n"                                                        \
+    }
+    static const char *const variants[][2] = {
+        [WHITTED_EXACT] = VARIANT(""),
+        [WHITTED_CORRECTED] = VARIANT("#define CORRECTED\n"),
+        [WHITTED_DOUBLE] = VARIANT("#define DOUBLE\n"),
+        [WHITTED_FAST] = VARIANT("#define FAST\n"),
+    };
+#undef VARIANT
+    return variants[variant][scene_in_storage];
+}
