@@ -42,7 +42,8 @@ static void tell_success(const struct picture *picture, double pipeline_ms, doub
 {
     char pipeline[64] = "same pipeline";
     if (pipeline_ms > 0)
-        snprintf(pipeline, sizeof pipeline, "pipeline rebuilt in %.1f ms", pipeline_ms);
+        snprintf(pipeline, sizeof pipeline, "pipeline %s in %.1f ms", picture->number > 1 ? "rebuilt" : "built",
+                 pipeline_ms);
     log_notice("picture %u: %s, rendered in %.1f ms, %.1f ms from save to picture", picture->number, pipeline,
                picture->dispatch_ms, clock_ms() - saved_ms);
 }

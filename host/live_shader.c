@@ -18,6 +18,21 @@ void live_shader_destroy(struct live_shader *live)
     *live = (struct live_shader){0};
 }
 
+static enum status check_interface(struct compilation *compilation, struct shader_choice choice,
+                                   const struct shader_source *source)
+{
+    char problem[128], *message;
+    if (tracer_provides((struct spirv){compilation->words, compilation->size}, choice, problem))
+        return STATUS_DONE;
+    compilation_destroy(compilation);
+    if (asprintf(&message, "%s: error: %s\n", source->files[0], problem) < 0) {
+        log_error("no memory for a message");
+        return STATUS_UNABLE;
+    }
+    compilation->messages = message;
+    return STATUS_REFUSED;
+}
+
 enum status live_shader_compile(struct live_shader *live, const struct picture *picture,
                                 const struct shader_source *source, bool changed, double *compile_ms)
 {
@@ -35,6 +50,8 @@ enum status live_shader_compile(struct live_shader *live, const struct picture *
     compilation_destroy(&live->compilation);
     enum status status = shader_compile(
         live->compiler, source, whitted_defines(choice.variant, choice.scene_in_storage), &live->compilation);
+    if (status == STATUS_DONE)
+        status = check_interface(&live->compilation, choice, source);
     *compile_ms = clock_ms() - start;
     live->choice = choice;
     live->compiled = status == STATUS_DONE || status == STATUS_REFUSED;

@@ -56,7 +56,8 @@ static void catch_signal(int number)
 
 void interrupt_catch(void)
 {
-    const struct sigaction action = {.sa_handler = catch_signal, .sa_flags = SA_RESTART};
+    const struct sigaction action = {.sa_handler = catch_signal,
+                                     .sa_flags = (int)(SA_RESTART | SA_RESETHAND)};
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
 }

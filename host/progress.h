@@ -19,7 +19,8 @@ void progress_advance(struct progress *progress, uint64_t amount);
 /* Wipes the bar, done or not. */
 void progress_end(struct progress *progress);
 
-/* Ctrl-C and SIGTERM from now on only set a flag, which long work asks for. */
+/* Ctrl-C and SIGTERM from now on only set a flag, which long work asks for; a second one ends the process,
+ * even where a driver does not come back. */
 void interrupt_catch(void);
 bool interrupt_requested(void);
 

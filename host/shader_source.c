@@ -2,6 +2,7 @@
 
 #include <ctype.h>
 #include <errno.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,15 +54,17 @@ static size_t note_file(struct expansion *expansion, const char *path)
 }
 
 /* An #error at the line of the file. */
-static void put_error(const struct expansion *expansion, const struct open_file *file, int line,
-                      const char *problem, const char *name)
+__attribute__((format(printf, 4, 5))) static void
+put_error(const struct expansion *expansion, const struct open_file *file, int line, const char *format, ...)
 {
     struct shader_source *source = expansion->source;
-    if (source->problem_count == MOST_PROBLEMS ||
-        asprintf(&source->problems[source->problem_count], "%s%s", problem, name) < 0)
-        return;
-    fprintf(expansion->text, "\n#line %d %zu\n#error " PROBLEM "%zu\n", line, file->number,
-            source->problem_count++);
+    va_list arguments;
+    va_start(arguments, format);
+    if (source->problem_count < MOST_PROBLEMS &&
+        vasprintf(&source->problems[source->problem_count], format, arguments) >= 0)
+        fprintf(expansion->text, "\n#line %d %zu\n#error " PROBLEM "%zu\n", line, file->number,
+                source->problem_count++);
+    va_end(arguments);
 }
 
 /* Whether what is named so exists beside the file; its path is to be freed by the caller. */
@@ -89,14 +92,14 @@ static void include(struct expansion *expansion, const struct open_file *file, c
         while (found && open && strcmp(open->path, path) != 0)
             open = open->includer;
         if (found && open)
-            put_error(expansion, file, file->line, "file includes itself: ", name);
+            put_error(expansion, file, file->line, "the file includes itself: %s", name);
         else if (found)
             expand_file(expansion, path, file);
         free(path);
         if (found)
             return;
     }
-    put_error(expansion, file, file->line, "cannot include, no such file: ", name);
+    put_error(expansion, file, file->line, "cannot include %s: %s", name, strerror(ENOENT));
 }
 
 static const char *skip_blanks(const char *at, const char *end)
@@ -151,7 +154,7 @@ static void expand_directive(struct expansion *expansion, struct open_file *file
         file->conditional_lines[file->nested++] = file->line;
     } else if (strcmp(word, "endif") == 0) {
         if (file->nested == 0) {
-            put_error(expansion, file, file->line, "#endif without #if", "");
+            put_error(expansion, file, file->line, "#endif without #if");
             file->at = behind;
         } else {
             --file->nested;
@@ -194,12 +197,25 @@ static void end_file(struct expansion *expansion, const struct open_file *file)
 {
     if (file->comment_line) {
         fputs("*/", expansion->text);
-        put_error(expansion, file, file->comment_line, "comment without end", "");
+        put_error(expansion, file, file->comment_line, "comment without end");
     }
     for (int i = 0; i < file->nested; ++i)
         fputs("\n#endif", expansion->text);
     if (file->nested > 0)
-        put_error(expansion, file, file->conditional_lines[file->nested - 1], "#if without #endif", "");
+        put_error(expansion, file, file->conditional_lines[file->nested - 1], "#if without #endif");
+}
+
+/* Why the file's text cannot be used; NULL: it can be. */
+static const char *judge_text(const struct expansion *expansion, const struct open_file *file,
+                              const char *text, size_t length)
+{
+    if (file->number == MOST_FILES)
+        return "too many files";
+    if (!text)
+        return strerror(errno);
+    if (strlen(text) != length)
+        return "not a text, it has a byte of value 0";
+    return ftello(expansion->text) > MOST_BYTES ? "the shader has become too long" : NULL;
 }
 
 static void expand_file(struct expansion *expansion, const char *path, const struct open_file *includer)
@@ -207,21 +223,16 @@ static void expand_file(struct expansion *expansion, const char *path, const str
     struct open_file file = {.path = path, .includer = includer, .line = 1};
     size_t length;
     file.number = note_file(expansion, path);
-    char *text = file.number < MOST_FILES ? file_text_read(path, MOST_BYTES, &length) : NULL;
-    if (!text && !includer)
+    char *text = file_text_read(path, MOST_BYTES, &length);
+    const char *problem = judge_text(expansion, &file, text, length);
+    if (problem && includer) {
+        put_error(expansion, includer, includer->line, "cannot include %s: %s", path, problem);
+    } else if (problem) {
         fputs("#version 460", expansion->text);
-    if (!text) {
-        put_error(expansion, includer ? includer : &file, includer ? includer->line : 1,
-                  file.number < MOST_FILES ? strerror(errno) : "too many files", "");
-        return;
-    }
-    if (includer)
-        fprintf(expansion->text, "#line 1 %zu\n", file.number);
-    if (strlen(text) != length)
-        put_error(expansion, &file, 1, "not a text: it has a byte of value 0", "");
-    else if (ftello(expansion->text) > MOST_BYTES)
-        put_error(expansion, &file, 1, "the shader has become too long", "");
-    else {
+        put_error(expansion, &file, 1, "%s", problem);
+    } else {
+        if (includer)
+            fprintf(expansion->text, "#line 1 %zu\n", file.number);
         file.at = text;
         file.end = text + length;
         while (file.at < file.end) {
@@ -288,6 +299,7 @@ static void put_text(FILE *messages, const struct shader_source *source, const c
 static void put_message(FILE *messages, const struct shader_source *source, const char *line, int length)
 {
     static const char *const severities[][2] = {{"ERROR: ", "error"}, {"WARNING: ", "warning"}};
+    static const char *const endings[] = {"No code generated", "compilation terminated", "missing #endif"};
     const char *severity = "note";
     for (size_t i = 0; i < 2; ++i)
         if (strncmp(line, severities[i][0], strlen(severities[i][0])) == 0) {
@@ -297,8 +309,10 @@ static void put_message(FILE *messages, const struct shader_source *source, cons
         }
     size_t file;
     int number, used = 0;
-    if (length <= 0 || memmem(line, (size_t)length, "No code generated", 17) ||
-        memmem(line, (size_t)length, "compilation terminated", 22))
+    bool noise = false; /* a missing #endif is known already, and better where */
+    for (size_t i = 0; i < 3 && length > 0; ++i)
+        noise |= memmem(line, (size_t)length, endings[i], strlen(endings[i])) != NULL;
+    if (length <= 0 || noise)
         return;
     if (sscanf(line, "%zu:%d: %n", &file, &number, &used) == 2 && used > 0 && file < source->file_count) {
         fprintf(messages, "%s:%d: %s: ", source->files[file], number, severity);

@@ -33,6 +33,10 @@ struct window {
     unsigned x, y, width, height;
 };
 
+/* Whether the code, which is valid, uses no other buffers than a tracer provides: drivers crash otherwise. If
+ * not, problem says what is wrong. */
+bool tracer_provides(struct spirv code, struct shader_choice choice, char problem[128]);
+
 /* Builds the pipeline and uploads the scene, which must outlive the tracer. On failure (reported) *tracer is
  * NULL. */
 enum status tracer_create(struct vulkan_context *context, const struct packed_scene *scene,

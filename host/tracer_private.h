@@ -1,7 +1,8 @@
 #ifndef VKWHITTED_TRACER_PRIVATE_H
 #define VKWHITTED_TRACER_PRIVATE_H
 
-/* Shared by tracer.c, which builds a tracer, and tracer_render.c, which runs it; for no other file. */
+/* Shared by tracer.c, which builds a tracer, tracer_interface.c, which looks at its code, and
+ * tracer_render.c, which runs it; for no other file. */
 
 #include "specialization.h"
 #include "tracer.h"
@@ -58,6 +59,12 @@ struct push_constants {
 static inline size_t pixel_size(const struct tracer *tracer)
 {
     return CHANNELS * (tracer->double_precision ? sizeof(double) : sizeof(float));
+}
+
+/* Of the shader's binding. */
+static inline bool is_storage_buffer(uint32_t binding, bool scene_in_storage)
+{
+    return binding >= PICTURE || (binding != VIEW && scene_in_storage);
 }
 
 /* Builds tracer->pipeline for the current shape; there is none yet. */

@@ -21,6 +21,8 @@ add_unit_test(number)
 add_unit_test(pack)
 add_unit_test(output_file)
 add_unit_test(scene_file)
+add_unit_test(shader_compiler)
+target_compile_definitions(unit_shader_compiler PRIVATE SHADER_DEBUG_INFO=$<BOOL:${VKWHITTED_SHADER_DEBUG_INFO}>)
 add_unit_test(srgb)
 
 # These open a device.

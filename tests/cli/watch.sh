@@ -1,0 +1,157 @@
+. "$(dirname "$0")/lib.sh"
+
+patience=20 # seconds for anything to show
+[ "$SANITIZE" != ON ] || patience=100
+turn='^vkwhitted: (picture [0-9]+: (same pipeline|pipeline)|compile failed|scene refused|rendering failed)'
+
+turns() { grep -Ec -- "$turn" err; }
+# eventually COMMAND...
+eventually() {
+    local end=$((SECONDS + patience))
+    until "$@"; do
+        [ $SECONDS -lt $end ] || fail "never: $*"
+        sleep 0.02
+    done
+}
+has_turns() { [ "$(turns)" -ge "$1" ]; }
+last_turn() { grep -E -- "$turn" err | tail -1; }
+
+# start ARGUMENTS...: watches s.yaml with the shaders in shaders/, 60x40, until the end of the test.
+start() {
+    cp "$figure" s.yaml
+    cp -r "$SOURCE_DIR/shaders" shaders
+    "$VKWHITTED" watch s.yaml $small --shaders shaders -o a.pfm "$@" >out 2>err &
+    watcher=$!
+    trap 'kill -KILL $watcher 2>/dev/null; cd /; chmod -R u+w "$folder"; rm -rf "$folder"' EXIT
+    eventually has_turns 1
+}
+
+# turn PATTERN COMMAND...: the command's changes bring about a turn, the last of them like this.
+turn() {
+    local pattern=$1 before
+    shift
+    before=$(turns)
+    "$@" || fail "$*"
+    eventually has_turns $((before + 1))
+    eventually ends_like "$pattern"
+}
+ends_like() { last_turn | grep -Eq -- "$1"; }
+
+finish() {
+    kill -INT $watcher
+    wait $watcher
+    status=$?
+    [ $status -eq 0 ] || fail "exit status $status after Ctrl-C"
+}
+
+# The picture is that of the files as they are.
+picture_is_rendered_scene() {
+    "$VKWHITTED" render -q s.yaml $small -o expected.pfm || fail 'render'
+    cmp a.pfm expected.pfm || fail 'not the picture that render makes'
+}
+
+edit() { sed "$1" "$2" >edited && ! cmp -s edited "$2" && mv edited "$2"; }
+set -m # or else the shell has background jobs ignore SIGINT
+
+scene_edits_keep_the_pipeline() {
+    start
+    picture_is_rendered_scene
+    for fov in 50 51 52; do
+        turn 'same pipeline' edit "s/fov_y: [0-9]*/fov_y: $fov/" s.yaml
+        picture_is_rendered_scene
+    done
+    turn 'same pipeline' edit 's/power: [0-9]*/power: 77/' s.yaml
+    turn 'pipeline rebuilt in [0-9.]+ ms' edit 's/type: transparent.*}/type: mirror }/' s.yaml
+    picture_is_rendered_scene
+    turn 'same pipeline' edit 's/width: [0-9]*/width: 300/' s.yaml
+    picture_is_rendered_scene
+    finish
+    [ "$(grep -c rebuilt err)" -eq 1 ] || fail 'another pipeline was built'
+    only_files a.pfm expected.pfm s.yaml shaders
+}
+
+shader_edits() {
+    local formula='(matte.a + matte.b \* sin_tan)'
+    start
+    cp a.pfm first.pfm
+    turn 'same pipeline' sh -c 'echo "// a comment" >>shaders/shade.glsl'
+    cmp a.pfm first.pfm || fail 'a comment changed the picture'
+    turn 'pipeline rebuilt' edit "s/$formula/(real(2) * matte.a)/" shaders/shade.glsl
+    ! cmp -s a.pfm first.pfm || fail 'the picture has not changed'
+    turn 'pipeline rebuilt' cp "$SOURCE_DIR/shaders/shade.glsl" shaders/
+    cmp a.pfm first.pfm || fail 'the picture is not what it was'
+    finish
+}
+
+broken_and_repaired() {
+    start
+    cp a.pfm first.pfm
+    turn 'compile failed after .* ms; picture 1 stays' edit '7s/$/\nfloat wrong = nothing;/' shaders/dielectric.glsl
+    said "^shaders/dielectric.glsl:8: error: 'nothing' : undeclared identifier$"
+    turn 'scene refused; picture 1 stays' edit 's/radius: [0-9.]*/radius: -1/' s.yaml
+    said '^s.yaml:[0-9]+:[0-9]+: error: .*radius must be > 0, is -1$'
+    turn 'compile failed; picture 1 stays' cp "$figure" s.yaml
+    cmp a.pfm first.pfm || fail 'the last good picture has gone'
+    turn 'picture 2: same pipeline' cp "$SOURCE_DIR/shaders/dielectric.glsl" shaders/
+    cmp a.pfm first.pfm || fail 'the picture is not what it was'
+    turn 'compile failed' edit 's/binding = 5/binding = 6/' shaders/whitted.comp
+    said '^shaders/whitted.comp: error: set 0, binding 6: the program provides'
+    turn 'picture 3: same pipeline' cp "$SOURCE_DIR/shaders/whitted.comp" shaders/
+    finish
+}
+
+# Broken from the start; files that are not there are a mistake of the command line.
+broken_at_the_start() {
+    cp -r "$SOURCE_DIR/shaders" shaders
+    echo 'camera: 1' >s.yaml
+    refused 2 'nowhere/whitted.comp: No such file' watch s.yaml --shaders nowhere -o a.pfm
+    expect 2 "$VKWHITTED" watch nothing.yaml -o a.pfm
+    said '^nothing.yaml: error: No such file'
+    "$VKWHITTED" watch s.yaml $small --shaders shaders -o a.pfm >out 2>err &
+    watcher=$!
+    eventually has_turns 1
+    ends_like 'scene refused; there is no picture yet' || fail 'the first turn'
+    [ ! -e a.pfm ] || fail 'a picture of nothing'
+    turn 'picture 1: pipeline built' cp "$figure" s.yaml
+    picture_is_rendered_scene
+    finish
+}
+
+ways_of_saving() {
+    start
+    turn 'scene refused' mv s.yaml away.yaml
+    said '^s.yaml: error: No such file'
+    turn 'same pipeline' mv away.yaml s.yaml
+    turn 'same pipeline' sh -c 'sed s/fov_y:.*[0-9]/fov_y:\ 55/ s.yaml >t; cat t >s.yaml; rm t'
+    sed 's/power: [0-9]*/power: 44/' s.yaml >real.yaml
+    turn 'same pipeline' ln -sf real.yaml s.yaml
+    turn 'same pipeline' edit 's/power: [0-9]*/power: 33/' real.yaml
+    picture_is_rendered_scene
+    mkdir later && cp -r shaders later/first && mv shaders later/second && ln -s later/first shaders
+    turn 'compile failed' sh -c 'echo broken >>later/first/scene.glsl'
+    turn 'same pipeline' ln -sfn later/second shaders
+    mkdir shaders/part && mv shaders/tally.glsl shaders/part/
+    turn 'same pipeline' edit 's,"tally.glsl","part/tally.glsl",' shaders/whitted.comp
+    turn 'compile failed' sh -c 'echo broken >>later/second/part/tally.glsl'
+    said '^shaders/part/tally.glsl:[0-9]+: error: '
+    finish
+}
+
+checked_in_the_background() {
+    start --check
+    eventually grep -q '^vkwhitted: picture 1: agrees with the reference in all 2400 pixels' err
+    turn 'pipeline rebuilt' edit 's/matte.b \* sin_tan)/matte.b * sin_tan * real(1.01))/' shaders/shade.glsl
+    eventually grep -Eq '^vkwhitted: picture 2: [1-9][0-9]* of 2400 pixels differ from the reference' err
+    finish
+}
+
+validated() {
+    "$VKWHITTED" devices --validate >/dev/null 2>&1 || skip 'no validation layer'
+    start --validate
+    turn 'same pipeline' edit 's/fov_y: [0-9]*/fov_y: 50/' s.yaml
+    turn 'pipeline rebuilt' edit 's/matte.b \* sin_tan)/matte.b * sin_tan * real(1.01))/' shaders/shade.glsl
+    finish
+    not_said validation
+}
+
+"$1"
