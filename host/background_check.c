@@ -16,6 +16,7 @@ struct background_check {
     sem_t wake;
     _Atomic(struct picture *) next; /* NULL: none */
     atomic_bool stop;
+    bool talkative;
 };
 
 static bool is_outdated(struct background_check *check)
@@ -23,8 +24,9 @@ static bool is_outdated(struct background_check *check)
     return atomic_load(&check->stop) || atomic_load(&check->next) || interrupt_requested();
 }
 
-/* Adds the differing pixels of the rows from y on; false if the reference could not be rendered. */
-static bool compare_band(const struct picture *picture, unsigned y, size_t *differing)
+/* Adds the differing pixels and the rays of the rows from y on; false if the reference could not be rendered.
+ */
+static bool compare_band(const struct picture *picture, unsigned y, size_t *differing, uint64_t *rays)
 {
     struct render_plan plan = picture->job.plan;
     struct rendering reference;
@@ -39,18 +41,23 @@ static bool compare_band(const struct picture *picture, unsigned y, size_t *diff
                                picture->image.rgb + (size_t)y * plan.window.width * 3, NULL};
     image_compare(&band, &reference.image, NULL, &comparison);
     *differing += comparison.differing;
+    *rays += reference.rays.primary + reference.rays.secondary + reference.rays.shadow;
     image_destroy(&reference.image);
     return true;
 }
 
-static void compare(struct background_check *check, const struct picture *picture)
+static void compare(struct background_check *check, struct picture *picture)
 {
     const struct image *image = &picture->image;
     size_t differing = 0;
+    uint64_t rays = 0;
     double start = clock_ms();
     for (unsigned y = 0; y < image->height; y += BAND_HEIGHT)
-        if (is_outdated(check) || !compare_band(picture, y, &differing))
+        if (is_outdated(check) || !compare_band(picture, y, &differing, &rays))
             return;
+    atomic_store(&picture->rays, rays);
+    if (!check->talkative)
+        return;
     size_t pixels = (size_t)image->width * image->height;
     if (differing == 0)
         log_notice("picture %u: agrees with the reference in all %zu pixels (after %.0f ms)", picture->number,
@@ -75,13 +82,14 @@ static void *run(void *argument)
     return NULL;
 }
 
-enum status background_check_create(struct background_check **pointer)
+enum status background_check_create(bool talkative, struct background_check **pointer)
 {
     struct background_check *check = *pointer = calloc(1, sizeof *check);
     if (!check) {
         log_error("no memory for --check");
         return STATUS_UNABLE;
     }
+    check->talkative = talkative;
     sem_init(&check->wake, 0, 0);
     int error = pthread_create(&check->thread, NULL, run, check);
     if (error == 0)

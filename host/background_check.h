@@ -7,8 +7,8 @@
  * many pixels differ. */
 struct background_check;
 
-/* On failure (reported) *check is NULL. */
-enum status background_check_create(struct background_check **check);
+/* On failure (reported) *check is NULL. Not talkative: only counts. */
+enum status background_check_create(bool talkative, struct background_check **check);
 
 /* Ends the comparison that is going on, too. */
 void background_check_destroy(struct background_check **check);

@@ -104,7 +104,7 @@ enum status image_compare(const struct image *a, const struct image *b, const st
     return comparison->differing > 0 ? STATUS_DIFFERS : STATUS_DONE;
 }
 
-static void put_heat(const float *a, const float *b, uint8_t *rgb)
+void heatmap_color(const float *a, const float *b, uint8_t *rgb)
 {
     if (memcmp(a, b, 3 * sizeof(float)) == 0) {
         memset(rgb, 0, 3);
@@ -134,7 +134,7 @@ static void encode_heat_row(const void *context, unsigned y, uint8_t *rgb)
     const struct pair *pair = context;
     size_t start = (size_t)y * pair->a->width * 3;
     for (size_t x = 0; x < pair->a->width; x++)
-        put_heat(pair->a->rgb + start + x * 3, pair->b->rgb + start + x * 3, rgb + x * 3);
+        heatmap_color(pair->a->rgb + start + x * 3, pair->b->rgb + start + x * 3, rgb + x * 3);
 }
 
 enum status heatmap_write(const struct image *a, const struct image *b, const char *path)

@@ -2,6 +2,7 @@
 #define VKWHITTED_COMPARE_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "image.h"
 #include "status.h"
@@ -29,6 +30,9 @@ struct comparison {
  * STATUS_REFUSED (reported, *comparison all 0) where the sizes differ. */
 enum status image_compare(const struct image *a, const struct image *b, const struct tolerance *tolerance,
                           struct comparison *comparison);
+
+/* The 8-bit colour of the difference between two pixels in the picture that heatmap_write() writes. */
+void heatmap_color(const float *a, const float *b, uint8_t *rgb);
 
 /* Writes an 8-bit PNG (whole or not at all, see output_file.h) that shows where two pictures differ: each
  * pixel its largest relative error over the channels, |a - b| / max(|a|, |b|), on a logarithmic scale in the

@@ -47,6 +47,7 @@ enum option_id {
     OPTION_QUICK,
     OPTION_SHADERS,
     OPTION_CHECK,
+    OPTION_WINDOW,
     OPTION_HELP,
     OPTION_VERSION,
 };
@@ -79,6 +80,7 @@ static const struct option long_options[] = {
     {"quick", no_argument, NULL, OPTION_QUICK},
     {"shaders", required_argument, NULL, OPTION_SHADERS},
     {"check", no_argument, NULL, OPTION_CHECK},
+    {"window", no_argument, NULL, OPTION_WINDOW},
     {"help", no_argument, NULL, OPTION_HELP},
     {"version", no_argument, NULL, OPTION_VERSION},
     {0},
@@ -96,6 +98,7 @@ static int takers(int id)
         return RENDER;
     case OPTION_SHADERS:
     case OPTION_CHECK:
+    case OPTION_WINDOW:
         return WATCH;
     case OPTION_TOLERANCE:
     case OPTION_ALLOW:
@@ -328,6 +331,9 @@ static enum status read_option(int id, const char *argument, struct options *opt
     case OPTION_CHECK:
         options->check = true;
         break;
+    case OPTION_WINDOW:
+        options->window = true;
+        break;
     case 'q':
         options->quiet = true;
         log_set_verbosity(-1);
@@ -371,8 +377,8 @@ static enum status check_consistency(struct options *options)
         problem = "pixel computes in float or double; see --against";
     else if (options->command == COMMAND_WATCH && options->scene_count > 1)
         problem = "watch takes one scene file";
-    else if (options->command == COMMAND_WATCH && options->output_count == 0)
-        problem = "watch needs -o FILE";
+    else if (options->command == COMMAND_WATCH && options->output_count == 0 && !options->window)
+        problem = "watch needs -o FILE where there is no display";
     else if (options->precision == PRECISION_QUAD && options->backend == BACKEND_VULKAN)
         problem = "--precision quad needs --backend cpu";
     else if (options->precision != PRECISION_FLOAT && (options->fast || options->against != PRECISION_FLOAT))
@@ -449,6 +455,8 @@ enum status options_read(int argc, char **argv, struct options *options, bool *f
     }
     options->scenes = argv + 1 + optind;
     options->scene_count = (size_t)(argc - 1 - optind);
+    if (options->command == COMMAND_WATCH && options->output_count == 0)
+        options->window = options->window || getenv("DISPLAY") || getenv("WAYLAND_DISPLAY");
     return status == STATUS_DONE ? check_consistency(options) : status;
 }
 

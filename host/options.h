@@ -47,6 +47,7 @@ struct options {
     bool quiet, verbose;
     const char *shaders; /* folder; NULL: the one that came with the program */
     bool check;          /* each picture that watch makes */
+    bool window;         /* that watch shows pictures in */
     bool quiet;
 };
 

@@ -11,6 +11,7 @@ struct picture {
     struct image image; /* empty before it has been rendered */
     unsigned number;    /* the first is 1; 0 before it has been rendered */
     double dispatch_ms;
+    atomic_ullong rays; /* as the reference has counted them; 0: not yet */
     atomic_uint users;
 };
 
