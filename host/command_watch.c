@@ -10,7 +10,6 @@
 #include "probe.h"
 #include "shader_folder.h"
 #include "watch_view.h"
-#include "window_system.h"
 
 static const double patience_ms = 250; /* between looks at Ctrl-C, should another thread have been told */
 
@@ -48,11 +47,12 @@ static enum status watch(struct watching *watching)
         }
         if (watching->options->window && !watching->window) /* there is something to say, but no picture */
             status = watch_window_create(watching->live.context, 600, 400, &watching->window);
-        status = watching->window ? watch_view_follow(&view, watching, &closed) : STATUS_DONE;
-        if (status == STATUS_INTERRUPTED || closed)
-            break;
-        if (status != STATUS_DONE && window_system_lost())
+        if (status == STATUS_DONE && watching->window)
+            status = watch_view_follow(&view, watching, &closed);
+        if (status != STATUS_DONE)
             return status;
+        if (closed)
+            break;
         bool happened = file_watch_wait(watching->inputs.files, watching->window ? 0 : patience_ms);
         status = watch_inputs_read(&watching->inputs, happened, &changes);
         if (status != STATUS_DONE)

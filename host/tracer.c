@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "probe.h"
+#include "vulkan_debug.h"
 #include "vulkan_pipeline.h"
 
 /* A part of the scene as it lies in memory; the buffer has room for at least one element. */
@@ -139,6 +140,7 @@ enum status tracer_build_pipeline(struct tracer *tracer)
     enum status status =
         vulkan_pipeline_create(tracer->context, code, tracer->pipeline_layout, (const uint32_t *)&constants,
                                sizeof constants / sizeof(uint32_t), &tracer->pipeline);
+    vulkan_name(tracer->context, VK_OBJECT_TYPE_PIPELINE, (uint64_t)tracer->pipeline, "whitted.comp");
     log_info("pipeline built in %.1f ms", clock_ms() - start);
     return status;
 }
@@ -322,6 +324,16 @@ static unsigned choose_samples_per_dispatch(const struct packed_scene *scene, un
     return samples < 1 ? 1 : (unsigned)samples;
 }
 
+static void name_objects(const struct tracer *tracer)
+{
+    struct vulkan_context *context = tracer->context;
+    vulkan_name(context, VK_OBJECT_TYPE_BUFFER, (uint64_t)tracer->scene.buffer, "scene");
+    vulkan_name(context, VK_OBJECT_TYPE_BUFFER, (uint64_t)tracer->picture.buffer, "tile of the picture");
+    vulkan_name(context, VK_OBJECT_TYPE_BUFFER, (uint64_t)tracer->staging.buffer, "tile for the host");
+    vulkan_name(context, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)tracer->set, "scene and picture");
+    vulkan_name(context, VK_OBJECT_TYPE_COMMAND_BUFFER, (uint64_t)tracer->commands, "tracer");
+}
+
 enum status tracer_create(struct vulkan_context *context, const struct packed_scene *scene,
                           const struct tracer_options *options, struct tracer **pointer)
 {
@@ -362,7 +374,9 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
         status = tracer_build_pipeline(tracer);
     if (status == STATUS_DONE)
         status = create_commands(tracer);
-    if (status != STATUS_DONE)
+    if (status == STATUS_DONE)
+        name_objects(tracer);
+    else
         tracer_destroy(pointer);
     return status;
 }

@@ -1,6 +1,8 @@
+#include <stdio.h>
 #include <string.h>
 
 #include "tracer_private.h"
+#include "vulkan_debug.h"
 
 static void record_barrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
                            VkPipelineStageFlags to, VkAccessFlags read)
@@ -39,6 +41,10 @@ static enum status record_tile(struct tracer *tracer, struct window tile, struct
                     .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                     .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
                 });
+    char label[96];
+    snprintf(label, sizeof label, "tile of %ux%u at %u, %u, samples %u to %u", tile.width, tile.height,
+             tile.x, tile.y, first_sample, end_sample);
+    vulkan_label_begin(tracer->context, commands, label);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->pipeline);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->pipeline_layout, 0, 1,
                             &tracer->set, 0, NULL);
@@ -70,6 +76,7 @@ static enum status record_tile(struct tracer *tracer, struct window tile, struct
         record_barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                        VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
     }
+    vulkan_label_end(tracer->context, commands);
     VULKAN_CALL(vkEndCommandBuffer, commands);
     return STATUS_DONE;
 

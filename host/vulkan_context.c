@@ -8,6 +8,7 @@
 
 #include "number.h"
 #include "probe.h"
+#include "vulkan_debug.h"
 #include "window_system.h"
 
 #define GLFW_INCLUDE_NONE
@@ -56,7 +57,7 @@ static bool list_extensions(bool presents, bool validate, const char **names, ui
     *count = 0;
     for (uint32_t i = 0; i < window_count; ++i)
         names[(*count)++] = window_names[i];
-    if (validate)
+    if (validate || vulkan_debug_available())
         names[(*count)++] = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
     return true;
 }
@@ -103,6 +104,7 @@ static enum status create_instance(struct vulkan_context *context, bool validate
                     .ppEnabledExtensionNames = extensions,
                 },
                 NULL, &context->instance);
+    vulkan_debug_load(context);
     if (validate) {
         PFN_vkCreateDebugUtilsMessengerEXT create = (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
             context->instance, "vkCreateDebugUtilsMessengerEXT");

@@ -24,6 +24,11 @@ struct vulkan_context {
     VkQueue queue;
     struct arithmetic arithmetic; /* not known before probe_arithmetic() */
     atomic_uint validation_messages;
+
+    /* Of VK_EXT_debug_utils; NULL where there is none. See vulkan_debug.h. */
+    PFN_vkSetDebugUtilsObjectNameEXT set_object_name;
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label;
+    PFN_vkCmdEndDebugUtilsLabelEXT end_label;
 };
 
 struct vulkan_options {

@@ -127,6 +127,8 @@ enum status watch_turn(struct watching *watching, double saved_ms)
     watching->shader_changed = false;
     if (status == STATUS_REFUSED)
         tell_failure(watching, "compile failed", watching->live.compilation.messages, compile_ms);
+    else if (status == STATUS_UNABLE)
+        tell_failure(watching, "compile failed", "see the terminal", compile_ms);
     return status == STATUS_DONE ? renew_picture(watching, saved_ms) : status;
 }
 

@@ -6,13 +6,14 @@
 #include <unistd.h>
 
 #include "camera_motion.h"
+#include "compare.h"
 #include "outputs.h"
 
 static const double wait_seconds = 0.02; /* between looks at the files */
 static const double rest_ms = 200;       /* without motion, until the camera counts as at rest */
 static const double frame_ms = 25;       /* what a picture may take while the camera moves */
 
-static void set_title(const struct watching *watching)
+static void set_title(const struct watch_view *view, const struct watching *watching)
 {
     const struct picture *shown = watching->shown;
     const char *scene = watching->options->scenes[0];
@@ -24,8 +25,12 @@ static void set_title(const struct watching *watching)
                  rays / shown->dispatch_ms / 1e3);
     else if (shown)
         snprintf(speed, sizeof speed, " - %.1f ms", shown->dispatch_ms);
-    watch_window_title(watching->window, "%s - %s%s%s%s", scene, device, speed,
-                       watching->failure[0] ? " - " : "", watching->failure);
+    if (view->shows_difference)
+        watch_window_title(watching->window, "%s - %zu pixels differ from the reference", scene,
+                           view->differing);
+    else
+        watch_window_title(watching->window, "%s - %s%s%s%s", scene, device, speed,
+                           watching->failure[0] ? " - " : "", watching->failure);
 }
 
 static bool moves(const struct display_input *input)
@@ -34,8 +39,7 @@ static bool moves(const struct display_input *input)
            input->zoom != 0;
 }
 
-static enum status move_camera(struct watch_view *view, struct watching *watching,
-                               const struct display_input *input)
+static void move_camera(struct watch_view *view, struct watching *watching, const struct display_input *input)
 {
     struct scene_camera *camera = &watching->camera;
     camera_orbit(camera, input->orbit_x, input->orbit_y);
@@ -45,7 +49,7 @@ static enum status move_camera(struct watch_view *view, struct watching *watchin
     view->shows_difference = false;
     view->last_motion_ms = clock_ms();
     double fine_ms = watching->shown ? watching->shown->dispatch_ms : 0;
-    return watch_preview(watching, (unsigned)fmin(fmax(ceil(sqrt(fine_ms / frame_ms)), 1), 16));
+    watch_preview(watching, (unsigned)fmin(fmax(ceil(sqrt(fine_ms / frame_ms)), 1), 16));
 }
 
 /* Beside the scene's name in the working folder, under a number that is free. */
@@ -67,23 +71,23 @@ static void save_picture(const struct watching *watching)
         log_notice("picture %u: saved as %s", watching->shown->number, path);
 }
 
-static enum status toggle_difference(struct watch_view *view, struct watching *watching)
+static void toggle_difference(struct watch_view *view, struct watching *watching)
 {
     const struct picture *shown = watching->shown;
     struct rendering reference;
     view->shows_difference = !view->shows_difference;
     if (!view->shows_difference)
-        return watch_window_show(watching->window, &shown->image, watching->options->transfer);
-    enum status status = render_on_cpu(&shown->job.plan, &reference);
-    if (status != STATUS_DONE)
-        return status;
-    status = watch_window_show_difference(watching->window, &shown->image, &reference.image);
+        watch_window_show(watching->window, &shown->image, watching->options->transfer);
+    if (!view->shows_difference || render_on_cpu(&shown->job.plan, &reference) != STATUS_DONE)
+        return;
+    struct comparison comparison;
+    image_compare(&shown->image, &reference.image, NULL, &comparison);
+    view->differing = comparison.differing;
+    watch_window_show_difference(watching->window, &shown->image, &reference.image);
     image_destroy(&reference.image);
-    return status;
 }
 
-static enum status obey_keys(struct watch_view *view, struct watching *watching,
-                             const struct display_input *input)
+static void obey_keys(struct watch_view *view, struct watching *watching, const struct display_input *input)
 {
     if (input->reset && watching->has_camera) {
         watching->camera = watching->file_camera;
@@ -95,22 +99,25 @@ static enum status obey_keys(struct watch_view *view, struct watching *watching,
     }
     if (input->save && watching->shown)
         save_picture(watching);
-    return input->difference && watching->shown ? toggle_difference(view, watching) : STATUS_DONE;
+    if (input->difference && watching->shown)
+        toggle_difference(view, watching);
 }
 
 enum status watch_view_follow(struct watch_view *view, struct watching *watching, bool *closed)
 {
     struct display_input input;
-    set_title(watching);
+    set_title(view, watching);
     enum status status = display_wait(watching->window->display, wait_seconds, &input);
     if (status != STATUS_DONE)
         return status;
     *closed = input.closed;
     if (moves(&input) && watching->has_camera)
-        status = move_camera(view, watching, &input);
+        move_camera(view, watching, &input);
     else if (view->moving && clock_ms() - view->last_motion_ms > rest_ms) {
         view->moving = false;
-        status = watching->failure[0] ? STATUS_DONE : watch_turn(watching, clock_ms());
+        if (!watching->failure[0])
+            watch_turn(watching, clock_ms());
     }
-    return status == STATUS_INTERRUPTED ? status : obey_keys(view, watching, &input);
+    obey_keys(view, watching, &input);
+    return STATUS_DONE;
 }

@@ -8,6 +8,7 @@ struct watch_view {
     bool moving;
     double last_motion_ms;
     bool shows_difference;
+    size_t differing; /* pixels, while it does */
 };
 
 /* Waits for input to the window, for a moment, and does what it asks for. While the camera moves, the picture
