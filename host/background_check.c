@@ -37,8 +37,9 @@ static bool compare_band(const struct picture *picture, unsigned y, size_t *diff
     plan.quiet = true;
     if (render_on_cpu(&plan, &reference) != STATUS_DONE)
         return false;
-    const struct image band = {plan.window.width, plan.window.height,
-                               picture->image.rgb + (size_t)y * plan.window.width * 3, NULL};
+    const struct image band = {.width = plan.window.width,
+                               .height = plan.window.height,
+                               .rgb = picture->image.rgb + (size_t)y * plan.window.width * 3};
     image_compare(&band, &reference.image, NULL, &comparison);
     *differing += comparison.differing;
     *rays += reference.rays.primary + reference.rays.secondary + reference.rays.shadow;

@@ -43,7 +43,7 @@ static enum status record_tile(struct tracer *tracer, struct window tile, struct
                 });
     char label[96];
     snprintf(label, sizeof label, "tile of %ux%u at %u, %u, samples %u to %u", tile.width, tile.height,
-             tile.x, tile.y, first_sample, end_sample);
+             tile.x, tile.y, portion.first_sample, portion.end_sample);
     vulkan_label_begin(tracer->context, commands, label);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->pipeline);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->pipeline_layout, 0, 1,

@@ -220,7 +220,7 @@ static void glslang_crashes(void **state)
 static void buffers_that_are_not_there(void **state)
 {
     static const char *const interfaces[] = {
-        "set = 0, binding = 6) buffer",          "set = 1, binding = 5) buffer",
+        "set = 0, binding = 8) buffer",          "set = 1, binding = 5) buffer",
         "set = 0, binding = 0) buffer",          "set = 0, binding = 1) buffer",
         "set = 0, binding = 5) readonly buffer",
     };

@@ -94,8 +94,8 @@ broken_and_repaired() {
     cmp a.pfm first.pfm || fail 'the last good picture has gone'
     turn 'picture 2: same pipeline' cp "$SOURCE_DIR/shaders/dielectric.glsl" shaders/
     cmp a.pfm first.pfm || fail 'the picture is not what it was'
-    turn 'compile failed' edit 's/binding = 5/binding = 6/' shaders/whitted.comp
-    said '^shaders/whitted.comp: error: set 0, binding 6: the program provides'
+    turn 'compile failed' edit 's/binding = 5/binding = 8/' shaders/whitted.comp
+    said '^shaders/whitted.comp: error: set 0, binding 8: the program provides'
     turn 'picture 3: same pipeline' cp "$SOURCE_DIR/shaders/whitted.comp" shaders/
     finish
 }
