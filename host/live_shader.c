@@ -1,5 +1,6 @@
 #include "live_shader.h"
 
+#include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,6 +84,7 @@ static enum status build_tracer(struct live_shader *live, struct picture *pictur
         return status;
     }
     drop_tracer(live);
+    malloc_trim(0); /* a driver's compiler needs much memory for a moment */
     live->tracer = tracer;
     live->code = code;
     live->traced = picture_share(picture);
