@@ -68,6 +68,10 @@ option_of_another_command() {
     refused 2 'check takes no option --transfer' check --transfer srgb "$figure"
     refused 2 'check takes no option --stats' check --stats a.json "$figure"
     refused 2 'render takes no option --tolerance' render --tolerance 1 "$figure"
+    refused 2 'watch takes no option --backend' watch --backend cpu -o a.png "$figure"
+    refused 2 'watch takes no option --stats' watch --stats a.json -o a.png "$figure"
+    refused 2 'render takes no option --shaders' render --shaders . "$figure"
+    refused 2 'check takes no option --check' check --check "$figure"
     refused 2 'render takes no option --heatmap' render --heatmap a.png "$figure"
     refused 2 'devices takes no option --size' devices --size 60x40
     only_files
@@ -84,6 +88,8 @@ impossible_together() {
     refused 2 '--fast ' render --fast --backend cpu "$figure"
     refused 2 '--device and --validate' render --device 0 --backend cpu "$figure"
     refused 2 '--device and --validate' render --validate --backend cpu "$figure"
+    refused 2 '--precision quad' watch --precision quad -o a.png "$figure"
+    (unset DISPLAY WAYLAND_DISPLAY; refused 2 'watch needs -o FILE where there is no display' watch "$figure") || exit 1
     refused 2 '--heatmap takes one scene' check --heatmap a.png "$figure" "$figure"
     refused 2 '--heatmap writes a .png' check --heatmap a.exr "$figure"
     only_files
@@ -93,6 +99,8 @@ several_scenes() {
     refused 2 'expected a scene file' render
     refused 2 'expected a scene file' check
     refused 2 'render takes one scene file' render "$figure" "$figure"
+    refused 2 'expected a scene file' watch -o a.png
+    refused 2 'watch takes one scene file' watch -o a.png "$figure" "$figure"
     refused 2 'devices takes no scene' devices "$figure"
 }
 
