@@ -1,8 +1,9 @@
 # The window, on X servers that the tests start and kill.
 pkg_check_modules(x11 REQUIRED IMPORTED_TARGET x11)
-foreach(name window input gone)
+foreach(name window input gone watch)
     add_executable(display_${name} display_${name}.c)
     target_include_directories(display_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+    target_compile_definitions(display_${name} PRIVATE SOURCE_DIR="${PROJECT_SOURCE_DIR}" VKWHITTED="$<TARGET_FILE:vkwhitted>")
     target_link_libraries(display_${name} PRIVATE vkwhitted_host PkgConfig::cmocka PkgConfig::x11)
     add_test(NAME display/${name} COMMAND display_${name})
     set_tests_properties(display/${name} PROPERTIES LABELS display TIMEOUT 300)
