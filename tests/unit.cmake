@@ -15,6 +15,7 @@ if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND NOT VKWHITTED_SANITIZE)
     add_unit_test(convergence) # dear, and the same bits in all builds
 endif()
 add_unit_test(fit)
+add_unit_test(file_watch)
 add_unit_test(image)
 add_unit_test(markup)
 add_unit_test(number)
