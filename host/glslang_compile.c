@@ -81,8 +81,9 @@ void glslang_warm_up(struct glslang_job *job)
     compile("#version 460\nlayout(local_size_x = 1) in;\nvoid main() {}\n", "", job);
 }
 
-void glslang_limit_memory(void)
+void glslang_limit(void)
 {
+    setrlimit(RLIMIT_CPU, &(struct rlimit){GLSLANG_MOST_SECONDS, GLSLANG_MOST_SECONDS + 1});
 #ifndef __SANITIZE_ADDRESS__ /* which reserves terabytes of addresses */
     setrlimit(RLIMIT_AS, &(struct rlimit){.rlim_cur = 1 << 30, .rlim_max = 1 << 30});
 #endif

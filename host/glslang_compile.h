@@ -18,8 +18,9 @@ struct glslang_job {
  * alone: it may be there already. */
 void glslang_warm_up(struct glslang_job *job);
 
-/* Keeps a compilation gone wild from taking all memory. */
-void glslang_limit_memory(void);
+/* Keeps a compilation gone wild from taking all memory, and all time: SIGXCPU ends the process. */
+enum { GLSLANG_MOST_SECONDS = 2 }; /* of processor time; it takes 0.03 */
+void glslang_limit(void);
 
 /* Compiles the source to SPIR-V, with the options that the build gives to glslangValidator. May crash. */
 void glslang_run(struct glslang_job *job);

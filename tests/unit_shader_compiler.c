@@ -217,6 +217,26 @@ static void glslang_crashes(void **state)
     compilation_destroy(&compilation);
 }
 
+/* Macros that stand for 8^12 tokens. */
+static void glslang_does_not_end(void **state)
+{
+    (void)state;
+    FILE *file = fopen("main.comp", "w");
+    assert_non_null(file);
+    fputs("#version 460\nlayout(local_size_x = 1) in;\n#define A0 x\n", file);
+    for (int i = 1; i <= 12; ++i) {
+        fprintf(file, "#define A%d", i);
+        for (int j = 0; j < 8; ++j)
+            fprintf(file, " A%d", i - 1);
+        fputs("\n", file);
+    }
+    fputs("void main() { A12 }\n", file);
+    fclose(file);
+    struct compilation compilation = compile("main.comp", "", STATUS_REFUSED);
+    assert_memory_equal(compilation.messages, "main.comp: error: glslang ", 26);
+    compilation_destroy(&compilation);
+}
+
 static void buffers_that_are_not_there(void **state)
 {
     static const char *const interfaces[] = {
@@ -259,8 +279,9 @@ static int teardown(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(same_as_the_build), TEST(messages_lead_to_the_file), TEST(files_to_watch),
-        TEST(no_shader_at_all),  TEST(glslang_crashes),           TEST(buffers_that_are_not_there),
+        TEST(same_as_the_build),          TEST(messages_lead_to_the_file), TEST(files_to_watch),
+        TEST(no_shader_at_all),           TEST(glslang_crashes),           TEST(glslang_does_not_end),
+        TEST(buffers_that_are_not_there),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
