@@ -1,8 +1,11 @@
 #include "watch_inputs.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <time.h>
 
 #include "file_text.h"
 #include "progress.h"
@@ -67,11 +70,35 @@ static bool same_shader(const struct shader_source *a, const struct shader_sourc
     return a->text && b->text && a->length == b->length && memcmp(a->text, b->text, a->length) == 0;
 }
 
+/* When a file that is there was last changed or renamed, by clock_ms(), to the few milliseconds that file
+ * systems resolve. */
+static double newest_change_ms(const struct watch_inputs *inputs)
+{
+    struct timespec now;
+    struct stat about;
+    double age_ms = INFINITY;
+    clock_gettime(CLOCK_REALTIME, &now);
+    for (size_t i = 0; i <= inputs->shader.file_count; ++i) {
+        const char *path = i < inputs->shader.file_count ? inputs->shader.files[i] : inputs->scene_path;
+        if (stat(path, &about) == 0)
+            age_ms = fmin(age_ms, (double)(now.tv_sec - about.st_ctim.tv_sec) * 1e3 +
+                                      (double)(now.tv_nsec - about.st_ctim.tv_nsec) * 1e-6);
+    }
+    return clock_ms() - fmax(age_ms, 0);
+}
+
+/* When what has changed was saved. Where no file is newer than the last look, one has gone, or a link leads
+ * elsewhere. */
+static double saved_ms(const struct watch_inputs *inputs, double last_look_ms)
+{
+    double changed_ms = newest_change_ms(inputs), event_ms = file_watch_last_event_ms(inputs->files);
+    return changed_ms > last_look_ms ? changed_ms : event_ms > last_look_ms ? event_ms : clock_ms();
+}
+
 enum status watch_inputs_read(struct watch_inputs *inputs, bool happened, struct watch_changes *changes)
 {
-    double now = clock_ms();
-    *changes = (struct watch_changes){.saved_ms = now};
-    if (!happened && inputs->shader.text && now - inputs->last_look_ms < look_again_ms)
+    *changes = (struct watch_changes){0};
+    if (!happened && inputs->shader.text && clock_ms() - inputs->last_look_ms < look_again_ms)
         return STATUS_DONE;
     struct watch_inputs before = *inputs;
     enum status status = STATUS_DONE;
@@ -89,8 +116,7 @@ enum status watch_inputs_read(struct watch_inputs *inputs, bool happened, struct
     inputs->last_look_ms = clock_ms();
     changes->scene = !before.shader.text || !same_scene(inputs, &before);
     changes->shader = !same_shader(&inputs->shader, &before.shader);
-    if (file_watch_last_event_ms(inputs->files) > before.last_look_ms)
-        changes->saved_ms = file_watch_last_event_ms(inputs->files);
+    changes->saved_ms = saved_ms(inputs, before.last_look_ms);
     forget(&before);
     return status;
 }
