@@ -251,18 +251,19 @@ real3 render_pixel(uvec2 position, uint place)
     if (SAMPLES > 1 || QUAD_LIGHTS > 0)
         pixel.seed = hash(hash(position.x) + position.y);
     bool finished = true;
-    if (SAMPLES == 1) {
-        finished = render_sample(pixel, primary_path(position, real(0.5), real(0.5)), place);
-    } else {
-        Sequence sequence = sequence_of(pixel.seed);
+    Sequence sequence;
+    if (SAMPLES > 1) {
+        sequence = sequence_of(pixel.seed);
         if (first_sample > 0u)
             resume(pixel, left);
-        for (uint k = first_sample; k < end_sample; ++k) {
-            pixel.sample_index = k;
-            real x, y;
+    }
+    // One call for both cases: each call is another copy of the tracer, which costs lavapipe 100 ms.
+    for (uint k = SAMPLES > 1 ? first_sample : 0u; k < (SAMPLES > 1 ? end_sample : 1u); ++k) {
+        pixel.sample_index = k;
+        real x = real(0.5), y = real(0.5);
+        if (SAMPLES > 1)
             sequence_point(sequence, k, x, y);
-            finished = render_sample(pixel, primary_path(position, x, y), place);
-        }
+        finished = render_sample(pixel, primary_path(position, x, y), place);
     }
     if (PATIENT && !finished)
         return real3(UNFINISHED);
