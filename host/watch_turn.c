@@ -134,9 +134,13 @@ enum status watch_turn(struct watching *watching, double saved_ms)
 
 enum status watch_preview(struct watching *watching, unsigned reduction)
 {
-    double pipeline_ms;
+    double pipeline_ms, start = clock_ms();
     if (watching->failure[0])
         return STATUS_DONE;
     enum status status = read_scene(watching, reduction);
-    return status == STATUS_DONE ? render(watching, &pipeline_ms) : status;
+    if (status == STATUS_DONE)
+        status = render(watching, &pipeline_ms);
+    if (status == STATUS_DONE)
+        log_info("moving: every %u pixels in %.1f ms", reduction, clock_ms() - start);
+    return status;
 }
