@@ -13,9 +13,9 @@
 enum {
     RENDER = 1 << COMMAND_RENDER,
     CHECK = 1 << COMMAND_CHECK,
+    WATCH = 1 << COMMAND_WATCH,
     BENCH = 1 << COMMAND_BENCH,
     PIXEL = 1 << COMMAND_PIXEL,
-    WATCH = 1 << COMMAND_WATCH,
     DEVICES = 1 << COMMAND_DEVICES,
 };
 
@@ -117,8 +117,7 @@ static int takers(int id)
     case OPTION_BACKEND:
         return RENDER | CHECK | BENCH;
     case OPTION_SIZE:
-        return RENDER | CHECK | BENCH | PIXEL;
-        return RENDER | CHECK | WATCH | BENCH;
+        return RENDER | CHECK | WATCH | BENCH | PIXEL;
     case OPTION_DEVICE:
     case OPTION_VALIDATE:
     case 'q':
@@ -126,13 +125,13 @@ static int takers(int id)
     case 'h':
     case OPTION_HELP:
     case OPTION_VERSION:
-        return RENDER | CHECK | BENCH | PIXEL | WATCH | DEVICES;
+        return RENDER | CHECK | WATCH | BENCH | PIXEL | DEVICES;
     case OPTION_FAST:
     case OPTION_CROP:
     case OPTION_THREADS:
-        return RENDER | CHECK;
+        return RENDER | CHECK | WATCH;
     default:
-        return RENDER | CHECK | PIXEL;
+        return RENDER | CHECK | WATCH | PIXEL;
     }
 }
 
@@ -414,7 +413,8 @@ static enum status read_command(const char *name, enum command *command)
             *command = (enum command)i;
             return STATUS_DONE;
         }
-    log_error("%s: expected a command: render, check, watch, bench or devices; see 'vkwhitted --help'", name);
+    log_error("%s: expected a command: render, check, watch, bench, pixel or devices; see 'vkwhitted --help'",
+              name);
     return STATUS_REFUSED;
 }
 

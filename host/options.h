@@ -9,7 +9,15 @@
 #include "render.h"
 #include "vulkan_context.h"
 
-enum command { COMMAND_RENDER, COMMAND_CHECK, COMMAND_WATCH, COMMAND_BENCH, COMMAND_PIXEL, COMMAND_DEVICES, COMMAND_COUNT };
+enum command {
+    COMMAND_RENDER,
+    COMMAND_CHECK,
+    COMMAND_WATCH,
+    COMMAND_BENCH,
+    COMMAND_PIXEL,
+    COMMAND_DEVICES,
+    COMMAND_COUNT
+};
 
 /* The command line, checked. Strings point into argv. */
 struct options {
@@ -43,12 +51,11 @@ struct options {
     const char *stats, *json, *heatmap;
     const char *csv, *report, *chart, *compare; /* bench; compare is an earlier one's JSON file */
     bool quick;
-    unsigned x, y; /* of pixel */
-    bool quiet, verbose;
+    unsigned x, y;       /* of pixel */
     const char *shaders; /* folder; NULL: the one that came with the program */
     bool check;          /* each picture that watch makes */
     bool window;         /* that watch shows pictures in */
-    bool quiet;
+    bool quiet, verbose;
 };
 
 /* Reads the command line; owns options->outputs, freed with options_destroy(). STATUS_REFUSED (reported) if

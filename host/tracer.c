@@ -147,9 +147,8 @@ enum status tracer_build_pipeline(struct tracer *tracer)
 
 static VkDescriptorType binding_type(const struct tracer *tracer, uint32_t binding)
 {
-    return is_storage_buffer(binding, tracer->scene_in_storage)
-               ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-               : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    return is_storage_buffer(binding, tracer->scene_in_storage) ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                                                : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
 }
 
 static uint32_t binding_count(const struct tracer *tracer)

@@ -26,9 +26,9 @@ static bool judge_variable(uint32_t storage_class, struct place place, struct sh
     if (storage_class != CLASS_UNIFORM_CONSTANT && storage_class != CLASS_UNIFORM &&
         storage_class != CLASS_STORAGE_BUFFER)
         return true;
-    if (place.set != 0 || place.binding >= BINDINGS) {
+    if (place.set != 0 || place.binding >= EVENTS) {
         snprintf(problem, 128, "set %u, binding %u: the program provides bindings 0 to %d of set 0",
-                 place.set, place.binding, BINDINGS - 1);
+                 place.set, place.binding, EVENTS - 1);
         return false;
     }
     bool storage = is_storage_buffer(place.binding, choice.scene_in_storage);

@@ -73,7 +73,7 @@ static enum status read_scene(struct watching *watching, unsigned reduction)
     status = watching->wanted ? job_create_from(&options, &scene, &watching->wanted->job) : STATUS_UNABLE;
     if (status != STATUS_DONE)
         picture_release(&watching->wanted);
-    scene_destroy(&scene);
+    scene_destroy(&scene); /* empty, unless there was no memory for the picture */
     return status;
 }
 
