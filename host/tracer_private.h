@@ -1,8 +1,8 @@
 #ifndef VKWHITTED_TRACER_PRIVATE_H
 #define VKWHITTED_TRACER_PRIVATE_H
 
-/* Shared by tracer.c, which builds a tracer, tracer_interface.c, which looks at its code, and
- * tracer_render.c, which runs it; for no other file. */
+/* Shared by tracer.c, which builds a tracer, tracer_render.c, which runs it, and the other tracer_*.c, which
+ * hold a part of it each; for no other file. */
 
 #include "specialization.h"
 #include "tracer.h"
@@ -66,6 +66,15 @@ static inline bool is_storage_buffer(uint32_t binding, bool scene_in_storage)
 {
     return binding >= PICTURE || (binding != VIEW && scene_in_storage);
 }
+
+/* Whether a part of the scene is too large for the device's uniform buffers. */
+bool tracer_scene_needs_storage(const struct vulkan_context *context, const struct packed_scene *scene);
+
+/* Lays the scene's parts out in one buffer, tracer->scene. */
+enum status tracer_upload_scene(struct tracer *tracer, const struct packed_scene *scene);
+
+/* Copies a scene with as many parts into that buffer. */
+void tracer_copy_scene(struct tracer *tracer, const struct packed_scene *scene);
 
 /* Builds tracer->pipeline for the current shape; there is none yet. */
 enum status tracer_build_pipeline(struct tracer *tracer);
