@@ -100,14 +100,14 @@ void camera_zoom(struct scene_camera *camera, double steps)
 
 static void print_vector(FILE *stream, const char *key, const double v[3])
 {
-    char x[NUMBER_TEXT_SIZE], y[NUMBER_TEXT_SIZE], z[NUMBER_TEXT_SIZE];
+    char x[NUMBER_TEXT], y[NUMBER_TEXT], z[NUMBER_TEXT];
     fprintf(stream, "%s: [%s, %s, %s], ", key, format_double(v[0], x), format_double(v[1], y),
             format_double(v[2], z));
 }
 
 void camera_print(FILE *stream, const struct scene_camera *camera)
 {
-    char fov_y[NUMBER_TEXT_SIZE];
+    char fov_y[NUMBER_TEXT];
     fputs("camera: { ", stream);
     print_vector(stream, "position", camera->position);
     print_vector(stream, "look_at", camera->look_at);

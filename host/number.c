@@ -59,23 +59,39 @@ bool parse_double(const char *text, size_t length, double *value)
     return true;
 }
 
-const char *format_double(double value, char text[NUMBER_TEXT_SIZE])
+/* The fewest digits that a double, or a float, is read from as this value. */
+static const char *format(double value, bool as_float, char text[static NUMBER_TEXT])
 {
+    if (!isfinite(value)) {
+        snprintf(text, NUMBER_TEXT, "%g", value);
+        return text;
+    }
     locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0), own_locale = (locale_t)0;
     if (c_locale)
         own_locale = uselocale(c_locale);
     int digits = 1;
     do
-        snprintf(text, NUMBER_TEXT_SIZE, "%.*e", digits - 1, value);
-    while (strtod(text, NULL) != value && ++digits <= DBL_DECIMAL_DIG);
+        snprintf(text, NUMBER_TEXT, "%.*e", digits - 1, value);
+    while ((as_float ? (double)strtof(text, NULL) : strtod(text, NULL)) != value &&
+           ++digits <= DBL_DECIMAL_DIG);
     long exponent = strtol(strchr(text, 'e') + 1, NULL, 10);
     if (exponent >= -5 && exponent < DBL_DIG)
-        snprintf(text, NUMBER_TEXT_SIZE, "%.*f", (int)fmax(0, (double)(digits - 1 - exponent)), value);
+        snprintf(text, NUMBER_TEXT, "%.*f", (int)fmax(0, (double)(digits - 1 - exponent)), value);
     if (c_locale) {
         uselocale(own_locale);
         freelocale(c_locale);
     }
     return text;
+}
+
+const char *format_double(double value, char text[static NUMBER_TEXT])
+{
+    return format(value, false, text);
+}
+
+const char *format_number(double value, char text[static NUMBER_TEXT])
+{
+    return format(value, (double)(float)value == value, text);
 }
 
 bool parse_unsigned(const char *text, size_t length, unsigned long max, unsigned long *value)
@@ -91,14 +107,4 @@ bool parse_unsigned(const char *text, size_t length, unsigned long max, unsigned
     }
     *value = parsed;
     return true;
-}
-
-void print_shortest(double value, char text[static NUMBER_TEXT])
-{
-    bool is_float = (double)(float)value == value;
-    for (int digits = 1; digits <= 17; ++digits) {
-        snprintf(text, NUMBER_TEXT, "%.*g", digits, value);
-        if (is_float ? (double)strtof(text, NULL) == value : strtod(text, NULL) == value)
-            return;
-    }
 }

@@ -13,16 +13,14 @@ enum { NUMBER_MAX_LENGTH = 500 }; /* characters; longer texts are not numbers */
  * double becomes the nearest double, perhaps 0. */
 bool parse_double(const char *text, size_t length, double *value);
 
-/* The fewest digits that parse_double() reads as this finite value; returns text. */
-enum { NUMBER_TEXT_SIZE = 32 };
-const char *format_double(double value, char text[NUMBER_TEXT_SIZE]);
-
 /* Digits only, at most max. */
 bool parse_unsigned(const char *text, size_t length, unsigned long max, unsigned long *value);
 
 enum { NUMBER_TEXT = 32 }; /* room for a printed number */
 
-/* The shortest decimal that reads back as this number, in single precision if it is one of those. */
-void print_shortest(double value, char text[static NUMBER_TEXT]);
+/* The fewest digits that parse_double() reads as this value; return text. format_number() prints a value that
+ * single precision has with the digits that it takes there. Not finite: inf or nan. */
+const char *format_double(double value, char text[static NUMBER_TEXT]);
+const char *format_number(double value, char text[static NUMBER_TEXT]);
 
 #endif

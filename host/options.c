@@ -1,7 +1,6 @@
 #include "options.h"
 
 #include <errno.h>
-#include <getopt.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,139 +8,7 @@
 
 #include "help.h"
 #include "number.h"
-
-enum {
-    RENDER = 1 << COMMAND_RENDER,
-    CHECK = 1 << COMMAND_CHECK,
-    WATCH = 1 << COMMAND_WATCH,
-    BENCH = 1 << COMMAND_BENCH,
-    PIXEL = 1 << COMMAND_PIXEL,
-    DEVICES = 1 << COMMAND_DEVICES,
-};
-
-enum option_id {
-    OPTION_DEVICE = 256,
-    OPTION_BACKEND,
-    OPTION_PRECISION,
-    OPTION_FAST,
-    OPTION_SIZE,
-    OPTION_MAX_BOUNCES,
-    OPTION_SAMPLES,
-    OPTION_LIGHT_SAMPLES,
-    OPTION_MAX_ERROR,
-    OPTION_CROP,
-    OPTION_THREADS,
-    OPTION_TRANSFER,
-    OPTION_VALIDATE,
-    OPTION_STATS,
-    OPTION_REPEAT,
-    OPTION_TOLERANCE,
-    OPTION_ALLOW,
-    OPTION_AGAINST,
-    OPTION_HEATMAP,
-    OPTION_JSON,
-    OPTION_CSV,
-    OPTION_REPORT,
-    OPTION_CHART,
-    OPTION_COMPARE,
-    OPTION_QUICK,
-    OPTION_SHADERS,
-    OPTION_CHECK,
-    OPTION_WINDOW,
-    OPTION_HELP,
-    OPTION_VERSION,
-};
-
-static const struct option long_options[] = {
-    {"device", required_argument, NULL, OPTION_DEVICE},
-    {"backend", required_argument, NULL, OPTION_BACKEND},
-    {"precision", required_argument, NULL, OPTION_PRECISION},
-    {"fast", no_argument, NULL, OPTION_FAST},
-    {"size", required_argument, NULL, OPTION_SIZE},
-    {"max-bounces", required_argument, NULL, OPTION_MAX_BOUNCES},
-    {"samples", required_argument, NULL, OPTION_SAMPLES},
-    {"light-samples", required_argument, NULL, OPTION_LIGHT_SAMPLES},
-    {"max-error", required_argument, NULL, OPTION_MAX_ERROR},
-    {"crop", required_argument, NULL, OPTION_CROP},
-    {"threads", required_argument, NULL, OPTION_THREADS},
-    {"transfer", required_argument, NULL, OPTION_TRANSFER},
-    {"validate", no_argument, NULL, OPTION_VALIDATE},
-    {"stats", required_argument, NULL, OPTION_STATS},
-    {"repeat", required_argument, NULL, OPTION_REPEAT},
-    {"tolerance", required_argument, NULL, OPTION_TOLERANCE},
-    {"allow", required_argument, NULL, OPTION_ALLOW},
-    {"against", required_argument, NULL, OPTION_AGAINST},
-    {"heatmap", required_argument, NULL, OPTION_HEATMAP},
-    {"json", required_argument, NULL, OPTION_JSON},
-    {"csv", required_argument, NULL, OPTION_CSV},
-    {"report", required_argument, NULL, OPTION_REPORT},
-    {"chart", required_argument, NULL, OPTION_CHART},
-    {"compare", required_argument, NULL, OPTION_COMPARE},
-    {"quick", no_argument, NULL, OPTION_QUICK},
-    {"shaders", required_argument, NULL, OPTION_SHADERS},
-    {"check", no_argument, NULL, OPTION_CHECK},
-    {"window", no_argument, NULL, OPTION_WINDOW},
-    {"help", no_argument, NULL, OPTION_HELP},
-    {"version", no_argument, NULL, OPTION_VERSION},
-    {0},
-};
-
-/* Which commands take an option, as a set of bits. */
-static int takers(int id)
-{
-    switch (id) {
-    case 'o':
-    case OPTION_TRANSFER:
-        return RENDER | WATCH;
-    case OPTION_STATS:
-    case OPTION_REPEAT:
-        return RENDER;
-    case OPTION_SHADERS:
-    case OPTION_CHECK:
-    case OPTION_WINDOW:
-        return WATCH;
-    case OPTION_TOLERANCE:
-    case OPTION_ALLOW:
-    case OPTION_HEATMAP:
-        return CHECK;
-    case OPTION_AGAINST:
-        return CHECK | PIXEL;
-    case OPTION_JSON:
-        return CHECK | BENCH | PIXEL;
-    case OPTION_CSV:
-    case OPTION_REPORT:
-    case OPTION_CHART:
-    case OPTION_COMPARE:
-    case OPTION_QUICK:
-        return BENCH;
-    case OPTION_BACKEND:
-        return RENDER | CHECK | BENCH;
-    case OPTION_SIZE:
-        return RENDER | CHECK | WATCH | BENCH | PIXEL;
-    case OPTION_DEVICE:
-    case OPTION_VALIDATE:
-    case 'q':
-    case 'v':
-    case 'h':
-    case OPTION_HELP:
-    case OPTION_VERSION:
-        return RENDER | CHECK | WATCH | BENCH | PIXEL | DEVICES;
-    case OPTION_FAST:
-    case OPTION_CROP:
-    case OPTION_THREADS:
-        return RENDER | CHECK | WATCH;
-    default:
-        return RENDER | CHECK | WATCH | PIXEL;
-    }
-}
-
-static const char *option_name(int id)
-{
-    for (const struct option *option = long_options; option->name; ++option)
-        if (option->val == id)
-            return option->name;
-    return "";
-}
+#include "option_table.h"
 
 /* Splits text at the separator into exactly `count` unsigned numbers up to most. */
 static bool parse_list(const char *text, char separator, size_t count, unsigned long most, unsigned *values)
@@ -418,6 +285,17 @@ static enum status read_command(const char *name, enum command *command)
     return STATUS_REFUSED;
 }
 
+/* What getopt_long() did not take: an option that is not there, or one without its value (or with one too
+ * many). */
+static enum status refuse_option(char **arguments, bool lacks_value)
+{
+    const char letter[] = {'-', (char)optopt, '\0'};
+    bool is_letter = optopt > 0 && optopt < OPTION_FIRST;
+    log_error("%s: %s; see 'vkwhitted --help'", is_letter ? letter : arguments[optind - 1],
+              lacks_value ? "expected a value behind it" : "no such option, or not in this form");
+    return STATUS_REFUSED;
+}
+
 enum status options_read(int argc, char **argv, struct options *options, bool *finished)
 {
     *finished = false;
@@ -437,14 +315,15 @@ enum status options_read(int argc, char **argv, struct options *options, bool *f
     *finished = strcmp(argv[1], "--version") == 0;
     if (*finished)
         return help_print_version();
+    opterr = 0; /* the messages are refuse_option()'s */
     enum status status = read_command(argv[1], &options->command);
     while (status == STATUS_DONE) {
-        int id = getopt_long(argc - 1, argv + 1, "o:qvh", long_options, NULL);
+        int id = getopt_long(argc - 1, argv + 1, ":o:qvh", option_table, NULL);
         if (id == -1)
             break;
-        if (id == '?')
-            return STATUS_REFUSED; /* reported by getopt_long */
-        if (!(takers(id) >> options->command & 1)) {
+        if (id == '?' || id == ':')
+            return refuse_option(argv + 1, id == ':');
+        if (!(option_takers(id) >> options->command & 1)) {
             log_error("%s takes no option %s%s", argv[1], id == 'o' ? "-o" : "--", option_name(id));
             return STATUS_REFUSED;
         }

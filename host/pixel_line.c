@@ -9,7 +9,7 @@ enum { NAME_WIDTH = 16 };
 static void print_number(double value)
 {
     char text[NUMBER_TEXT];
-    print_shortest(value, text);
+    format_number(value, text);
     fputs(text, stdout);
 }
 

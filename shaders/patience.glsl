@@ -4,10 +4,14 @@
 
 uint most_rays = 0u, most_leaves = 0u; // of a sample, in this lane
 
-// Turns of loops, should the compiler unroll none.
-const uint TURNS_OF_A_RAY = 1u + (RAYS_GET_LOST ? 2u : 1u) * uint(SPHERES + PLANES);
-const uint TURNS_OF_A_LEAF = uint(POINT_LIGHTS) * TURNS_OF_A_RAY +
-                             uint(QUAD_LIGHTS) * (1u + uint(LIGHT_SAMPLES) * TURNS_OF_A_RAY);
+// Turns of loops. Lavapipe unrolls those over objects and lights where there are 19 of them, and no longer where there
+// are 24; agreement/many_turns holds it to 10.
+const bool UNROLLED = SPHERES + PLANES + POINT_LIGHTS + QUAD_LIGHTS <= 10;
+const uint TURNS_OVER_OBJECTS = UNROLLED ? 0u : uint(SPHERES + PLANES);
+const uint TURNS_OF_A_RAY = 1u + (RAYS_GET_LOST ? 2u : 1u) * TURNS_OVER_OBJECTS;
+const uint TURNS_OF_A_LIGHT_POINT = 1u + TURNS_OVER_OBJECTS;
+const uint TURNS_OF_A_LEAF = (UNROLLED ? 0u : uint(POINT_LIGHTS)) * TURNS_OF_A_LIGHT_POINT +
+                             uint(QUAD_LIGHTS) * (1u + uint(LIGHT_SAMPLES) * TURNS_OF_A_LIGHT_POINT);
 const uint TURNS_OF_A_SAMPLE = 2u + (PATIENT ? 2u * uint(STACK_ROOM) : 0u); // and of a row
 // Rays of a sample after which a patient dispatch traces no more.
 const uint PORTION = 1u + 32768u / (TURNS_OF_A_RAY + TURNS_OF_A_LEAF);

@@ -63,6 +63,8 @@ add_agreement(many_turns/figure_2b/64x40/samples_256 ${PROJECT_SOURCE_DIR}/scene
               --size 64x40 --samples 256)
 add_agreement(many_turns/overlapping_glass/120x80/bounces_32
               ${CMAKE_CURRENT_SOURCE_DIR}/scenes/overlapping_glass.yaml --size 120x80 --max-bounces 32)
+add_agreement(many_turns/ten_hostile/light_samples_9000 ${CMAKE_CURRENT_SOURCE_DIR}/scenes/ten_hostile.yaml -q
+              --light-samples 9000)
 # Up to 400000 rays in a pixel: one sample takes several dispatches.
 foreach(arguments "" "--precision;double" "--samples;2" "--max-error;1e-12")
     string(MAKE_C_IDENTIFIER "${arguments}" name)
