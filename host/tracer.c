@@ -237,10 +237,11 @@ error:
 }
 
 /* A dispatch should end well within a second, so that Ctrl-C is heard and no watchdog bites. */
-static unsigned choose_tile_pixels(const struct vulkan_context *context, const struct packed_scene *scene)
+static unsigned choose_tile_pixels(const struct vulkan_context *context, const struct packed_scene *scene,
+                                   unsigned samples)
 {
     uint64_t work_per_pixel =
-        (uint64_t)scene->samples * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
+        samples * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
     uint64_t pixels = (UINT64_C(1) << 22) / work_per_pixel;
     uint64_t fitting = context->properties.limits.maxStorageBufferRange / (CHANNELS * sizeof(double));
     pixels = pixels < 1024 ? 1024 : pixels;
@@ -250,14 +251,17 @@ static unsigned choose_tile_pixels(const struct vulkan_context *context, const s
 
 /* So many that an invocation's loops stay well below lavapipe's limit, as far as can be told beforehand: as
  * patience.glsl counts them, with 16 rays and as many leaves where there are secondary rays. */
-static unsigned choose_samples_per_dispatch(const struct packed_scene *scene, unsigned rows)
+static unsigned choose_samples_per_dispatch(const struct packed_scene *scene, const struct group_shape *shape)
 {
+    struct specialization constants = specialize(scene, shape, OUTPUT_RADIANCE);
     uint64_t objects = (uint64_t)(scene->sphere_count + scene->plane_count);
     uint64_t lights = (uint64_t)scene->point_light_count +
                       (uint64_t)scene->quad_light_count * (uint64_t)scene->light_samples;
-    uint64_t rays = scene->max_bounces > 0 ? 16 : 1;
-    uint64_t samples = (UINT64_C(1) << 15) / (rows * rays * (1 + objects) * (1 + lights));
-    return samples < 1 ? 1 : (unsigned)samples;
+    uint64_t rays = (constants.mirrors || constants.glass) && scene->max_bounces > 0 ? 16 : 1;
+    uint64_t turns_over_objects = objects <= 8 ? 1 : 1 + objects;
+    uint64_t samples = (UINT64_C(1) << 15) / (shape->rows * rays * turns_over_objects * (1 + lights));
+    samples = samples < 1 ? 1 : samples;
+    return (unsigned)(samples < (uint64_t)scene->samples ? samples : (uint64_t)scene->samples);
 }
 
 static void name_objects(const struct tracer *tracer)
@@ -285,10 +289,12 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
     tracer->shape.rows = on_processor ? 16 : 1;
     tracer->shape.width = options->group_width ? options->group_width : 8;
     tracer->shape.height = options->group_height ? options->group_height : on_processor ? 1 : 8;
-    tracer->tile_pixels = options->tile_pixels ? options->tile_pixels : choose_tile_pixels(context, scene);
+    tracer->samples_per_dispatch = choose_samples_per_dispatch(scene, &tracer->shape);
+    tracer->tile_pixels = options->tile_pixels
+                              ? options->tile_pixels
+                              : choose_tile_pixels(context, scene, tracer->samples_per_dispatch);
     tracer->packed = scene;
     tracer->options = *options;
-    tracer->samples_per_dispatch = choose_samples_per_dispatch(scene, tracer->shape.rows);
     tracer->picture_width = (unsigned)scene->width;
     tracer->picture_height = (unsigned)scene->height;
     enum status status = options->fast ? STATUS_DONE : probe_require_exact(context);

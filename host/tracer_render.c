@@ -182,10 +182,13 @@ static void copy_tile(const struct tracer *tracer, struct window window, struct 
 static enum status render_tiles(struct tracer *tracer, struct window window, struct image *image,
                                 struct progress *progress, double *dispatch_ms, bool *too_long)
 {
+    /* an invocation traces all its rows, also those below the tile: whole ones, if possible */
+    const unsigned rows = tracer->shape.rows;
     unsigned tile_width = window.width < 1024 ? window.width : 1024;
-    if (tile_width > tracer->tile_pixels)
-        tile_width = tracer->tile_pixels;
+    if (tile_width > tracer->tile_pixels / rows)
+        tile_width = tracer->tile_pixels > rows ? tracer->tile_pixels / rows : 1;
     unsigned tile_height = tracer->tile_pixels / tile_width;
+    tile_height -= tile_height > rows ? tile_height % rows : 0;
     for (unsigned y = 0; y < window.height; y += tile_height) {
         for (unsigned x = 0; x < window.width; x += tile_width) {
             struct window tile = {
