@@ -71,8 +71,11 @@ compare() {
     expect 0 "$VKWHITTED" bench $tiny "$matte" --json a.json
     # so far off that no load of the machine hides it
     with_times 1e60 >slow.json
-    expect 0 "$VKWHITTED" bench $tiny "$matte" --compare slow.json
+    # the CPU's own times may be anything beside other tests, so the exit status says nothing of the device's
+    "$VKWHITTED" bench $tiny "$matte" --compare slow.json >out 2>err
+    [ $? -le 1 ] || fail 'it has not compared'
     said 'figure_2a.yaml: --fast: faster: ' out
+    not_said 'figure_2a.yaml: (--fast|as the scene says): SLOWER' out
     with_times 1e-60 >fast.json
     expect 1 "$VKWHITTED" bench $tiny "$matte" --compare fast.json
     said 'figure_2a.yaml: --fast: SLOWER: ' out
