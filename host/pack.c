@@ -35,11 +35,6 @@ static layout_vec4 to_vec4(struct dvec3 v, double w)
     return (layout_vec4){to_float(v.x), to_float(v.y), to_float(v.z), to_float(w)};
 }
 
-static struct dvec3 from_vec4(layout_vec4 v)
-{
-    return (struct dvec3){(double)v.x, (double)v.y, (double)v.z};
-}
-
 static double plane_offset(const struct scene_object *plane, struct dvec3 *normal)
 {
     *normal = dvec3_unit(dvec3_of(plane->plane.normal));
@@ -162,7 +157,7 @@ static void pack_plane(struct packing *packing, const struct scene_object *objec
 
 static double plane_height(const struct PackedPlane *plane, struct dvec3 point)
 {
-    return dvec3_dot(from_vec4(plane->normal_offset), point) - (double)plane->normal_offset.w;
+    return dvec3_dot(dvec3_of_vec4(plane->normal_offset), point) - (double)plane->normal_offset.w;
 }
 
 static bool lies_behind(const struct PackedPlane *plane, struct dvec3 point)
@@ -226,7 +221,7 @@ static enum status pack_quad_light(struct packing *packing, const struct scene_l
 static bool reaches_into(double distance, layout_vec4 sphere)
 {
     double radius = (double)sphere.w;
-    return distance < radius - resolution * (dvec3_length(from_vec4(sphere)) + radius);
+    return distance < radius - resolution * (dvec3_length(dvec3_of_vec4(sphere)) + radius);
 }
 
 /* Whether a ray or a shading point can lie within the sphere other than on it: the camera is in it, or it is
@@ -234,9 +229,9 @@ static bool reaches_into(double distance, layout_vec4 sphere)
 static bool holds_rays(const struct packed_scene *packed, int sphere)
 {
     const struct PackedSphere *holder = &packed->spheres[sphere];
-    struct dvec3 center = from_vec4(holder->center_radius);
+    struct dvec3 center = dvec3_of_vec4(holder->center_radius);
     double radius = (double)holder->center_radius.w;
-    if (dvec3_length(dvec3_subtract(from_vec4(packed->view.position), center)) < radius)
+    if (dvec3_length(dvec3_subtract(dvec3_of_vec4(packed->view.position), center)) < radius)
         return true;
     if (holder->surface.tags.x != KIND_TRANSPARENT)
         return false;
@@ -245,7 +240,7 @@ static bool holds_rays(const struct packed_scene *packed, int sphere)
             return true;
     for (int i = 0; i < packed->sphere_count; ++i) {
         layout_vec4 other = packed->spheres[i].center_radius;
-        double apart = dvec3_length(dvec3_subtract(from_vec4(other), center));
+        double apart = dvec3_length(dvec3_subtract(dvec3_of_vec4(other), center));
         if (i != sphere && reaches_into(fabs(apart - (double)other.w), holder->center_radius))
             return true;
     }
@@ -255,17 +250,17 @@ static bool holds_rays(const struct packed_scene *packed, int sphere)
 /* Whether some point of a light may lie within the sphere; for quads, of the ball around them. */
 static bool holds_lights(const struct packed_scene *packed, const struct PackedSphere *sphere)
 {
-    struct dvec3 center = from_vec4(sphere->center_radius);
+    struct dvec3 center = dvec3_of_vec4(sphere->center_radius);
     double radius = (double)sphere->center_radius.w;
     for (int i = 0; i < packed->point_light_count; ++i) {
-        struct dvec3 light = from_vec4(packed->point_lights[i].position);
+        struct dvec3 light = dvec3_of_vec4(packed->point_lights[i].position);
         if (dvec3_length(dvec3_subtract(light, center)) < radius)
             return true;
     }
     for (int i = 0; i < packed->quad_light_count; ++i) {
         const struct PackedQuadLight *quad = &packed->quad_lights[i];
-        struct dvec3 u = from_vec4(quad->edge_u), v = from_vec4(quad->edge_v);
-        struct dvec3 middle = dvec3_add(from_vec4(quad->corner), dvec3_scale(0.5, dvec3_add(u, v)));
+        struct dvec3 u = dvec3_of_vec4(quad->edge_u), v = dvec3_of_vec4(quad->edge_v);
+        struct dvec3 middle = dvec3_add(dvec3_of_vec4(quad->corner), dvec3_scale(0.5, dvec3_add(u, v)));
         double reach = (dvec3_length(u) + dvec3_length(v)) / 2;
         if (dvec3_length(dvec3_subtract(middle, center)) < radius + reach)
             return true;
@@ -290,12 +285,13 @@ static void warn_of_overlaps(const struct packing *packing)
         for (int k = 0; k < i; ++k) {
             layout_vec4 b = packed->spheres[k].center_radius;
             if (packed->spheres[k].surface.tags.x == KIND_TRANSPARENT &&
-                reaches_into(dvec3_length(dvec3_subtract(from_vec4(a), from_vec4(b))) - (double)b.w, a))
+                reaches_into(dvec3_length(dvec3_subtract(dvec3_of_vec4(a), dvec3_of_vec4(b))) - (double)b.w,
+                             a))
                 warn_overlap(packing, packing->sphere_sources[k], packing->sphere_sources[i]);
         }
         for (int k = 0; k < packed->plane_count; ++k)
             if (packed->planes[k].surface.tags.x == KIND_TRANSPARENT &&
-                reaches_into(plane_height(&packed->planes[k], from_vec4(a)), a))
+                reaches_into(plane_height(&packed->planes[k], dvec3_of_vec4(a)), a))
                 warn_overlap(packing, packing->plane_sources[k], packing->sphere_sources[i]);
     }
     for (int i = 0; i < packed->plane_count; ++i)

@@ -18,16 +18,11 @@ static const double resolution = 0x1p-20;
  * of weights lose that much in 1000 bounces. */
 static const double slack = 0x1p-10;
 
-static struct dvec3 from_vec4(layout_vec4 v)
-{
-    return (struct dvec3){(double)v.x, (double)v.y, (double)v.z};
-}
-
 static struct dvec3 quad_corner(const struct PackedQuadLight *quad, int corner)
 {
-    struct dvec3 along_u = dvec3_scale(corner & 1, from_vec4(quad->edge_u));
-    struct dvec3 along_v = dvec3_scale(corner >> 1, from_vec4(quad->edge_v));
-    return dvec3_add(from_vec4(quad->corner), dvec3_add(along_u, along_v));
+    struct dvec3 along_u = dvec3_scale(corner & 1, dvec3_of_vec4(quad->edge_u));
+    struct dvec3 along_v = dvec3_scale(corner >> 1, dvec3_of_vec4(quad->edge_v));
+    return dvec3_add(dvec3_of_vec4(quad->corner), dvec3_add(along_u, along_v));
 }
 
 /* A matte sphere or, if that is NULL, plane. */
@@ -40,9 +35,10 @@ struct body {
 static double distance_from(struct body body, struct dvec3 point)
 {
     if (!body.sphere)
-        return dvec3_dot(from_vec4(body.plane->normal_offset), point) - (double)body.plane->normal_offset.w;
+        return dvec3_dot(dvec3_of_vec4(body.plane->normal_offset), point) -
+               (double)body.plane->normal_offset.w;
     layout_vec4 sphere = body.sphere->center_radius;
-    return dvec3_length(dvec3_subtract(point, from_vec4(sphere))) - (double)sphere.w;
+    return dvec3_length(dvec3_subtract(point, dvec3_of_vec4(sphere))) - (double)sphere.w;
 }
 
 static double distance_from_segment(struct dvec3 from, struct dvec3 edge, struct dvec3 point)
@@ -54,7 +50,7 @@ static double distance_from_segment(struct dvec3 from, struct dvec3 edge, struct
 
 static double distance_from_quad(const struct PackedQuadLight *quad, struct dvec3 point)
 {
-    struct dvec3 u = from_vec4(quad->edge_u), v = from_vec4(quad->edge_v), normal = dvec3_cross(u, v);
+    struct dvec3 u = dvec3_of_vec4(quad->edge_u), v = dvec3_of_vec4(quad->edge_v), normal = dvec3_cross(u, v);
     struct dvec3 way = dvec3_subtract(point, quad_corner(quad, 0));
     double area_squared = dvec3_dot(normal, normal);
     double at_u = dvec3_dot(dvec3_cross(way, v), normal) / area_squared;
@@ -78,7 +74,7 @@ static double quad_distance(struct body body, const struct PackedQuadLight *quad
         farthest = fmax(farthest, distance);
     }
     if (body.sphere) /* all corners in it: the quad is; but corners outside tell little */
-        nearest = distance_from_quad(quad, from_vec4(body.sphere->center_radius)) -
+        nearest = distance_from_quad(quad, dvec3_of_vec4(body.sphere->center_radius)) -
                   (double)body.sphere->center_radius.w;
     return fmax(0, fmax(nearest, -farthest));
 }
@@ -99,16 +95,16 @@ static double matte_radiance(const struct packed_scene *scene, struct body body)
     struct dvec3 irradiance = {0, 0, 0};
     for (int i = 0; i < scene->point_light_count; ++i) {
         const struct PackedPointLight *light = &scene->point_lights[i];
-        double falloff = inverse_square(fabs(distance_from(body, from_vec4(light->position))));
-        irradiance = dvec3_add(irradiance, dvec3_scale(falloff, from_vec4(light->intensity)));
+        double falloff = inverse_square(fabs(distance_from(body, dvec3_of_vec4(light->position))));
+        irradiance = dvec3_add(irradiance, dvec3_scale(falloff, dvec3_of_vec4(light->intensity)));
     }
     for (int i = 0; i < scene->quad_light_count; ++i) {
         const struct PackedQuadLight *light = &scene->quad_lights[i];
-        double area = dvec3_length(from_vec4(light->area_normal)) * scene->light_samples;
+        double area = dvec3_length(dvec3_of_vec4(light->area_normal)) * scene->light_samples;
         double falloff = inverse_square(quad_distance(body, light));
-        irradiance = dvec3_add(irradiance, dvec3_scale(area * falloff, from_vec4(light->radiance)));
+        irradiance = dvec3_add(irradiance, dvec3_scale(area * falloff, dvec3_of_vec4(light->radiance)));
     }
-    struct dvec3 albedo = from_vec4(surface->parameters);
+    struct dvec3 albedo = dvec3_of_vec4(surface->parameters);
     double largest = fmax(albedo.x * irradiance.x, fmax(albedo.y * irradiance.y, albedo.z * irradiance.z));
     if (!isfinite(largest)) /* also 0 times INFINITY */
         return INFINITY;
@@ -117,7 +113,7 @@ static double matte_radiance(const struct packed_scene *scene, struct body body)
 
 double truncation_radiance(const struct packed_scene *scene)
 {
-    double radiance = dvec3_largest(from_vec4(scene->view.background));
+    double radiance = dvec3_largest(dvec3_of_vec4(scene->view.background));
     for (int i = 0; i < scene->sphere_count; ++i)
         radiance = fmax(radiance, matte_radiance(scene, (struct body){.sphere = &scene->spheres[i]}));
     for (int i = 0; i < scene->plane_count; ++i)
@@ -156,7 +152,8 @@ static layout_vec4 between_mirrors(const struct packed_scene *scene)
     for (int i = 0; i < scene->plane_count; ++i)
         if (scene->planes[i].surface.tags.x == KIND_TRANSPARENT ||
             (scene->planes[i].surface.tags.x == KIND_MATTE &&
-             fabs(dvec3_dot(from_vec4(normal), from_vec4(scene->planes[i].normal_offset))) > resolution))
+             fabs(dvec3_dot(dvec3_of_vec4(normal), dvec3_of_vec4(scene->planes[i].normal_offset))) >
+                 resolution))
             return none;
     return faced ? normal : none;
 }

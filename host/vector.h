@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "scene_layout.h"
+
 /* Vectors of three doubles for preparing the scene; cglm has float only. */
 struct dvec3 {
     double x, y, z;
@@ -11,6 +13,12 @@ struct dvec3 {
 static inline struct dvec3 dvec3_of(const double v[3])
 {
     return (struct dvec3){v[0], v[1], v[2]};
+}
+
+/* Without w. */
+static inline struct dvec3 dvec3_of_vec4(layout_vec4 v)
+{
+    return (struct dvec3){(double)v.x, (double)v.y, (double)v.z};
 }
 
 static inline struct dvec3 dvec3_add(struct dvec3 a, struct dvec3 b)
