@@ -77,8 +77,8 @@ static inline int find_blocker(const struct packed_scene *scene, const struct se
 #define RECORD_RAY(sample, path)                                                                             \
     record_ray(sample, &(path)->ray, (real)(path)->weight, (path)->bounces, (path)->branch)
 #define RECORD_HIT(hit)                                                                                      \
-    record(EVENT_HIT, (layout_ivec4){.x = (hit)->surface, .y = (hit)->leaving}, (hit)->normal, (hit)->point, \
-           (hit)->surface < 0 ? 0 : (hit)->distance)
+    record(EVENT_HIT, (layout_ivec4){.x = (hit)->surface, .y = (hit)->from_inside}, (hit)->normal,           \
+           (hit)->point, (hit)->surface < 0 ? 0 : (hit)->distance)
 #define RECORD_SPLIT(cos_in, refraction)                                                                     \
     record(EVENT_SPLIT, (layout_ivec4){.x = (refraction).total}, (refraction).direction,                     \
            (struct vec3){cos_in, (refraction).reflectance, 0}, 0)

@@ -56,8 +56,9 @@ static void gather_matte(struct pixel *pixel, const struct tracked_path *path, c
 static void trace_dielectric(struct pixel *pixel, const struct tracked_path *path, const struct hit *hit,
                              struct hit_error hit_error, struct tracked_path reflected)
 {
-    layout_vec4 ior = hit->material->parameters;
-    real eta = hit->leaving ? ior.z : ior.x, kappa = hit->leaving ? ior.w : ior.y;
+    layout_vec4 glass = hit->material->parameters;
+    real eta = hit->from_inside ? glass.ETA_EXITING : glass.ETA_ENTERING,
+         kappa = hit->from_inside ? glass.KAPPA_EXITING : glass.KAPPA_ENTERING;
     real cos_in = at_least_zero(-dot(hit->normal, path->ray.direction));
     struct refraction refraction = refract(path->ray.direction, hit->normal, cos_in, eta, kappa);
     struct dielectric_error error =
@@ -77,7 +78,7 @@ static void trace_dielectric(struct pixel *pixel, const struct tracked_path *pat
     double e_split = path->weight * error.reflectance + rounding(path->weight);
     struct tracked_path refracted = reflected;
     refracted.ray.direction = refraction.direction;
-    refracted.ray.inward = !hit->leaving;
+    refracted.ray.inward = !hit->from_inside;
     refracted.error.direction = error.refracted_direction;
     refracted.branch = 2 * path->branch + 1;
     refracted.weight = path->weight * (1 - reflectance);
@@ -102,7 +103,7 @@ static void trace(struct pixel *pixel, const struct tracked_path *path)
     RECORD_RAY(pixel->sample, path);
     RECORD_BOUNDS(each(path->error.origin), each(path->error.direction), path->e_weight, INFINITY);
     bool met = find_hit(scene, ray, &hit);
-    note(&pixel->tally, (uint32_t)(hit.surface + 1) * 2 + hit.leaving);
+    note(&pixel->tally, (uint32_t)(hit.surface + 1) * 2 + hit.from_inside);
     double margin = hit_margin(scene, ray, path->error, &hit);
     pixel->margin = smaller(pixel->margin, margin);
     RECORD_HIT(&hit);
@@ -116,7 +117,7 @@ static void trace(struct pixel *pixel, const struct tracked_path *path)
                   distance_error(scene, ray, hit.surface, (double)hit.distance, path->error), margin);
     if (hit_error.normal > 0.5 || path->error.direction > 0.5)
         pixel->margin = 0; /* float knows no direction here */
-    if (hit.material->tags.x == KIND_MATTE) {
+    if (hit.material->tags.SURFACE_KIND == KIND_MATTE) {
         gather_matte(pixel, path, &hit, hit_error);
         return;
     }
@@ -129,12 +130,12 @@ static void trace(struct pixel *pixel, const struct tracked_path *path)
         .origin = hit.point,
         .direction = reflect(ray->direction, hit.normal, at_least_zero(-dot(hit.normal, ray->direction))),
         .surface = hit.surface,
-        .inward = hit.leaving,
+        .inward = hit.from_inside,
     };
     reflected.error =
         (struct ray_error){hit_error.point, track_reflection(path->error.direction, hit_error.normal)};
     ++reflected.bounces;
-    if (hit.material->tags.x == KIND_MIRROR)
+    if (hit.material->tags.SURFACE_KIND == KIND_MIRROR)
         trace_secondary(pixel, &reflected);
     else
         trace_dielectric(pixel, path, &hit, hit_error, reflected);

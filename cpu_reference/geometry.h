@@ -19,26 +19,26 @@ struct ray {
 struct hit {
     real distance;
     int surface;
-    bool leaving;              /* met from the inside of a sphere or the glass side of a transparent plane */
+    bool from_inside;          /* met from the inside of a sphere or the glass side of a transparent plane */
     struct vec3 point, normal; /* unit normal, facing the ray */
     const PackedSurface *material;
 };
 
 /* Where a line passes a sphere: Haines, Guenther and Akenine-Moeller, "Precision Improvements for
  * Ray/Sphere Intersection", Ray Tracing Gems (2019), chapter 7. */
-struct passage {
-    real along;              /* signed distance to the closest approach */
-    struct vec3 foot;        /* from there to the centre */
-    real half_chord_squared; /* > 0: the line meets the sphere */
+struct approach {
+    real along;                /* signed distance to the closest approach */
+    struct vec3 center_offset; /* from there to the centre */
+    real half_chord_squared;   /* > 0: the line meets the sphere */
 };
 
-static inline struct passage pass_sphere(struct vec3 to_center, struct vec3 direction, real radius)
+static inline struct approach approach_sphere(struct vec3 to_center, struct vec3 direction, real radius)
 {
-    struct passage passage;
-    passage.along = dot(to_center, direction);
-    passage.foot = subtract(to_center, scale(passage.along, direction));
-    passage.half_chord_squared = radius * radius - dot(passage.foot, passage.foot);
-    return passage;
+    struct approach approach;
+    approach.along = dot(to_center, direction);
+    approach.center_offset = subtract(to_center, scale(approach.along, direction));
+    approach.half_chord_squared = radius * radius - dot(approach.center_offset, approach.center_offset);
+    return approach;
 }
 
 static inline bool lies_inside(struct vec3 to_center, real radius)
@@ -48,40 +48,40 @@ static inline bool lies_inside(struct vec3 to_center, real radius)
 
 /* Whether the ray meets the sphere with this number; the distance to where it does, and from which side. */
 static inline bool meet_sphere(const struct PackedSphere *sphere, int surface, const struct ray *ray,
-                               real *distance, bool *leaving)
+                               real *distance, bool *from_inside)
 {
     real radius = sphere->center_radius.w;
     struct vec3 to_center = subtract(vector_of(sphere->center_radius), ray->origin);
-    struct passage passage = pass_sphere(to_center, ray->direction, radius);
-    real half_chord = square_root(at_least_zero(passage.half_chord_squared));
-    *leaving = true;
+    struct approach approach = approach_sphere(to_center, ray->direction, radius);
+    real half_chord = square_root(at_least_zero(approach.half_chord_squared));
+    *from_inside = true;
     if (ray->surface == surface) { /* inward, the way is a whole chord; outward, there is no way back */
-        *distance = 2 * at_least_zero(passage.along);
+        *distance = 2 * at_least_zero(approach.along);
         return ray->inward;
     }
-    if (sphere->surface.tags.z != 0 && lies_inside(to_center, radius)) {
-        *distance = at_least_zero(passage.along + half_chord);
+    if (sphere->surface.tags.HOLDS_RAYS != 0 && lies_inside(to_center, radius)) {
+        *distance = at_least_zero(approach.along + half_chord);
         return true;
     }
-    *leaving = false;
-    *distance = passage.along - half_chord;
-    return passage.along > 0 && passage.half_chord_squared > 0;
+    *from_inside = false;
+    *distance = approach.along - half_chord;
+    return approach.along > 0 && approach.half_chord_squared > 0;
 }
 
 static inline bool meet_plane(const struct PackedPlane *plane, int surface, const struct ray *ray,
-                              real *distance, bool *leaving)
+                              real *distance, bool *from_inside)
 {
     if (ray->surface == surface)
         return false;
     struct vec3 normal = vector_of(plane->normal_offset);
     real slope = dot(normal, ray->direction);
     real height = dot(normal, ray->origin) - plane->normal_offset.w;
-    if (plane->surface.tags.x == KIND_TRANSPARENT) {
-        *leaving = slope > 0;
+    if (plane->surface.tags.SURFACE_KIND == KIND_TRANSPARENT) {
+        *from_inside = slope > 0;
         *distance = height / -slope;
-        return *leaving ? slope > (real)PARALLEL && height < 0 : slope < -(real)PARALLEL && height > 0;
+        return *from_inside ? slope > (real)PARALLEL && height < 0 : slope < -(real)PARALLEL && height > 0;
     }
-    *leaving = false;
+    *from_inside = false;
     *distance = at_least_zero(height) / -slope; /* the origin is in front of every opaque plane */
     return slope < -(real)PARALLEL;
 }
@@ -93,11 +93,11 @@ static inline void locate(const struct packed_scene *scene, const struct ray *ra
     if (hit->surface < scene->sphere_count) {
         layout_vec4 shape = scene->spheres[hit->surface].center_radius;
         struct vec3 center = vector_of(shape);
-        struct passage passage = pass_sphere(subtract(center, ray->origin), ray->direction, shape.w);
-        real half_chord = square_root(at_least_zero(passage.half_chord_squared));
-        if (hit->leaving)
+        struct approach approach = approach_sphere(subtract(center, ray->origin), ray->direction, shape.w);
+        real half_chord = square_root(at_least_zero(approach.half_chord_squared));
+        if (hit->from_inside)
             half_chord = -half_chord;
-        normal = normalize(negate(add(passage.foot, scale(half_chord, ray->direction))));
+        normal = normalize(negate(add(approach.center_offset, scale(half_chord, ray->direction))));
         hit->point = add(center, scale(shape.w, normal));
     } else {
         layout_vec4 shape = scene->planes[hit->surface - scene->sphere_count].normal_offset;
@@ -105,7 +105,7 @@ static inline void locate(const struct packed_scene *scene, const struct ray *ra
         struct vec3 point = add(ray->origin, scale(hit->distance, ray->direction));
         hit->point = subtract(point, scale(dot(normal, point) - shape.w, normal));
     }
-    hit->normal = hit->leaving ? negate(normal) : normal;
+    hit->normal = hit->from_inside ? negate(normal) : normal;
 }
 
 /* The nearest surface on the ray's way; of surfaces at one distance the first of the scene file. */
@@ -115,17 +115,17 @@ static inline bool find_hit(const struct packed_scene *scene, const struct ray *
     for (int i = 0; i < scene->sphere_count + scene->plane_count; ++i) {
         int plane = i - scene->sphere_count;
         real distance;
-        bool leaving;
-        bool met = plane < 0 ? meet_sphere(&scene->spheres[i], i, ray, &distance, &leaving)
-                             : meet_plane(&scene->planes[plane], i, ray, &distance, &leaving);
+        bool from_inside;
+        bool met = plane < 0 ? meet_sphere(&scene->spheres[i], i, ray, &distance, &from_inside)
+                             : meet_plane(&scene->planes[plane], i, ray, &distance, &from_inside);
         const PackedSurface *material =
             plane < 0 ? &scene->spheres[i].surface : &scene->planes[plane].surface;
         if (met && (distance < nearest->distance ||
                     (distance == nearest->distance && nearest->surface != NO_SURFACE &&
-                     material->tags.y < nearest->material->tags.y))) {
+                     material->tags.FILE_ORDER < nearest->material->tags.FILE_ORDER))) {
             nearest->distance = distance;
             nearest->surface = i;
-            nearest->leaving = leaving;
+            nearest->from_inside = from_inside;
             nearest->material = material;
         }
     }
@@ -152,23 +152,24 @@ static inline bool sphere_blocks(const struct PackedSphere *sphere, int surface,
     struct vec3 center = vector_of(sphere->center_radius);
     real radius = sphere->center_radius.w;
     struct vec3 to_center = subtract(center, segment->from);
-    bool starts_inside = own || (sphere->surface.tags.z != 0 && lies_inside(to_center, radius));
-    bool ends_inside = sphere->surface.tags.w != 0 && lies_inside(subtract(center, segment->to), radius);
+    bool starts_inside = own || (sphere->surface.tags.HOLDS_RAYS != 0 && lies_inside(to_center, radius));
+    bool ends_inside =
+        sphere->surface.tags.HOLDS_LIGHTS != 0 && lies_inside(subtract(center, segment->to), radius);
     if (starts_inside || ends_inside)
         return starts_inside != ends_inside;
-    struct passage passage = pass_sphere(to_center, segment->direction, radius);
-    return passage.along > 0 && passage.half_chord_squared > 0 && passage.along < segment->length;
+    struct approach approach = approach_sphere(to_center, segment->direction, radius);
+    return approach.along > 0 && approach.half_chord_squared > 0 && approach.along < segment->length;
 }
 
 /* A segment crosses a plane exactly when its ends lie on different sides; `from` is known to lie in front
  * of every opaque plane. */
 static inline bool plane_blocks(const struct PackedPlane *plane, int surface, const struct segment *segment)
 {
-    if (plane->surface.tags.z == 0)
+    if (plane->surface.tags.CASTS_SHADOWS == 0)
         return false;
     struct vec3 normal = vector_of(plane->normal_offset);
     bool ends_behind = dot(normal, segment->to) - plane->normal_offset.w < 0;
-    if (plane->surface.tags.x != KIND_TRANSPARENT)
+    if (plane->surface.tags.SURFACE_KIND != KIND_TRANSPARENT)
         return ends_behind;
     bool starts_behind = dot(normal, segment->from) - plane->normal_offset.w < 0;
     return segment->surface != surface && starts_behind != ends_behind;

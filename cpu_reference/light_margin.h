@@ -21,22 +21,22 @@ static inline double sphere_block_margin(const struct PackedSphere *sphere, int 
         return INFINITY;
     double margin = INFINITY;
     bool inside = own;
-    if (sphere->surface.tags.w != 0) {
+    if (sphere->surface.tags.HOLDS_LIGHTS != 0) {
         margin = inside_margin(sphere->center_radius, segment->to, rounding(length(segment->to)));
         inside = inside || contains(sphere, segment->to);
     }
-    if (!own && sphere->surface.tags.z != 0) {
+    if (!own && sphere->surface.tags.HOLDS_RAYS != 0) {
         margin = smaller(margin, inside_margin(sphere->center_radius, segment->from, e_from));
         inside = inside || contains(sphere, segment->from);
     }
     if (inside)
         return margin; /* where the ends lie decides all */
-    struct tracked_passage passage = track_passage(sphere->center_radius, segment->from, segment->direction,
-                                                   (struct ray_error){e_from, e_direction});
+    struct tracked_approach approach = track_approach(
+        sphere->center_radius, segment->from, segment->direction, (struct ray_error){e_from, e_direction});
     struct conjunction blocked = conjunction_begin();
-    require_positive(&blocked, passage.along, passage.e_along);
-    require_positive(&blocked, passage.clearance, passage.e_clearance);
-    require_positive(&blocked, (double)segment->length - passage.along, passage.e_along + e_from);
+    require_positive(&blocked, approach.along, approach.e_along);
+    require_positive(&blocked, approach.clearance, approach.e_clearance);
+    require_positive(&blocked, (double)segment->length - approach.along, approach.e_along + e_from);
     return smaller(margin, conjunction_margin(&blocked));
 }
 
@@ -44,13 +44,13 @@ static inline double plane_block_margin(const struct PackedPlane *plane, int sur
                                         const struct segment *segment, double e_from, bool *blocks)
 {
     *blocks = plane_blocks(plane, surface, segment);
-    if (plane->surface.tags.z == 0)
+    if (plane->surface.tags.CASTS_SHADOWS == 0)
         return INFINITY;
     struct vec3 normal = vector_of(plane->normal_offset);
     double offset = (double)plane->normal_offset.w;
     double end = fabs((double)dot(normal, segment->to) - offset);
     double margin = end / rounding(length(segment->to) + fabs(offset));
-    if (plane->surface.tags.x != KIND_TRANSPARENT || segment->surface == surface)
+    if (plane->surface.tags.SURFACE_KIND != KIND_TRANSPARENT || segment->surface == surface)
         return margin;
     double start = fabs((double)dot(normal, segment->from) - offset);
     return smaller(margin, start / (e_from + rounding(length(segment->from) + fabs(offset))));
@@ -101,7 +101,8 @@ static inline struct tracked track_receive(const struct packed_scene *scene, con
         return (struct tracked){value, 0};
 
     /* The factor (a + b s / larger) cos_in is continuous, so neither s > 0 nor cos_in > 0 is a decision. */
-    double a = (double)hit->material->parameters.w, b = (double)hit->material->oren_nayar_b.x;
+    double a = (double)hit->material->parameters.OREN_NAYAR_A,
+           b = (double)hit->material->more_parameters.OREN_NAYAR_B;
     double s = larger(-(double)dot(direction, matte->ray->direction) - cos_in * cos_out, 0);
     double larger_cos = larger(larger(cos_in, cos_out), e_cos_in);
     double e_s = *e_to_light + e_ray_direction + cos_out * e_cos_in + cos_in * e_cos_out + rounding(1);
@@ -113,7 +114,7 @@ static inline struct tracked track_receive(const struct packed_scene *scene, con
                       rounding(2 * factor);
     double falloff = 1 / (distance * distance);
     double error = (e_factor + factor * (2 * e_way / distance + rounding(2))) * falloff;
-    struct segment segment = {hit->point, light, direction, (real)distance, hit->surface, hit->leaving};
+    struct segment segment = {hit->point, light, direction, (real)distance, hit->surface, hit->from_inside};
     struct conjunction lit = conjunction_begin();
     bool hides;
     double shadow = shadow_margin(scene, &segment, hit_error.point, *e_to_light, &hides);

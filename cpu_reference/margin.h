@@ -68,26 +68,26 @@ static inline double conjunction_margin(const struct conjunction *decision)
 }
 
 /* How a ray passes a sphere, with errors. */
-struct tracked_passage {
+struct tracked_approach {
     double along, e_along;
     double clearance, e_clearance; /* radius - distance of the line from the centre */
     double half_chord, e_half_chord;
 };
 
-static inline struct tracked_passage track_passage(layout_vec4 center_radius, struct vec3 origin,
-                                                   struct vec3 direction, struct ray_error error)
+static inline struct tracked_approach track_approach(layout_vec4 center_radius, struct vec3 origin,
+                                                     struct vec3 direction, struct ray_error error)
 {
     struct vec3 to_center = subtract(vector_of(center_radius), origin);
-    struct passage passage = pass_sphere(to_center, direction, center_radius.w);
+    struct approach approach = approach_sphere(to_center, direction, center_radius.w);
     double apart = length(to_center), radius = (double)center_radius.w;
-    double foot = length(passage.foot);
-    double half_chord = (double)square_root(at_least_zero(passage.half_chord_squared));
+    double center_offset = length(approach.center_offset);
+    double half_chord = (double)square_root(at_least_zero(approach.half_chord_squared));
     double e_clearance =
-        error.origin + fabs((double)passage.along) * error.direction + rounding(apart + radius);
-    return (struct tracked_passage){
-        .along = (double)passage.along,
+        error.origin + fabs((double)approach.along) * error.direction + rounding(apart + radius);
+    return (struct tracked_approach){
+        .along = (double)approach.along,
         .e_along = error.origin + apart * error.direction + rounding(apart),
-        .clearance = (double)passage.half_chord_squared / (radius + foot),
+        .clearance = (double)approach.half_chord_squared / (radius + center_offset),
         .e_clearance = e_clearance,
         .half_chord = half_chord,
         /* of the root of a quantity with error 2 radius e_clearance, which may be near 0 */
@@ -112,9 +112,9 @@ static inline double distance_error(const struct packed_scene *scene, const stru
                                     double distance, struct ray_error error)
 {
     if (surface < scene->sphere_count) {
-        struct tracked_passage passage =
-            track_passage(scene->spheres[surface].center_radius, ray->origin, ray->direction, error);
-        return passage.e_along + passage.e_half_chord;
+        struct tracked_approach approach =
+            track_approach(scene->spheres[surface].center_radius, ray->origin, ray->direction, error);
+        return approach.e_along + approach.e_half_chord;
     }
     layout_vec4 plane = scene->planes[surface - scene->sphere_count].normal_offset;
     double slope = fabs((double)dot(vector_of(plane), ray->direction));
@@ -129,23 +129,24 @@ static inline double sphere_margin(const struct packed_scene *scene, int i, cons
     const struct PackedSphere *sphere = &scene->spheres[i];
     if (ray->surface == i)
         return INFINITY; /* certain either way */
-    struct tracked_passage passage = track_passage(sphere->center_radius, ray->origin, ray->direction, error);
+    struct tracked_approach approach =
+        track_approach(sphere->center_radius, ray->origin, ray->direction, error);
     double margin = INFINITY;
-    if (sphere->surface.tags.z != 0) {
+    if (sphere->surface.tags.HOLDS_RAYS != 0) {
         margin = inside_margin(sphere->center_radius, ray->origin, error.origin);
         if (contains(sphere, ray->origin)) { /* certain to be met, at its far side */
-            double back = passage.along + passage.half_chord;
+            double back = approach.along + approach.half_chord;
             double behind =
-                fabs(nearest_distance - back) / (e_nearest + passage.e_along + passage.e_half_chord);
+                fabs(nearest_distance - back) / (e_nearest + approach.e_along + approach.e_half_chord);
             return smaller(margin, behind);
         }
     }
     struct conjunction met = conjunction_begin();
-    require_positive(&met, passage.along, passage.e_along);
-    require_positive(&met, passage.clearance, passage.e_clearance);
+    require_positive(&met, approach.along, approach.e_along);
+    require_positive(&met, approach.clearance, approach.e_clearance);
     /* Met or not, it matters only where it is not clearly behind the nearest. */
-    double front = passage.along - passage.half_chord;
-    require_positive(&met, nearest_distance - front, e_nearest + passage.e_along + passage.e_half_chord);
+    double front = approach.along - approach.half_chord;
+    require_positive(&met, nearest_distance - front, e_nearest + approach.e_along + approach.e_half_chord);
     return smaller(margin, conjunction_margin(&met));
 }
 
@@ -161,7 +162,7 @@ static inline double plane_margin(const struct packed_scene *scene, int i, const
     double height = (double)(dot(normal, ray->origin) - plane->normal_offset.w);
     double e_slope = error.direction + rounding(1);
     double e_height = error.origin + rounding(length(ray->origin) + fabs((double)plane->normal_offset.w));
-    if (plane->surface.tags.x != KIND_TRANSPARENT) {
+    if (plane->surface.tags.SURFACE_KIND != KIND_TRANSPARENT) {
         height = larger(height, 0); /* known */
     } else if (height < 0) {
         height = -height;
@@ -169,7 +170,7 @@ static inline double plane_margin(const struct packed_scene *scene, int i, const
     }
     struct conjunction met = conjunction_begin();
     require_positive(&met, -slope, e_slope);
-    if (plane->surface.tags.x == KIND_TRANSPARENT)
+    if (plane->surface.tags.SURFACE_KIND == KIND_TRANSPARENT)
         require_positive(&met, height, e_height);
     /* height / -slope < nearest_distance, without dividing by a slope near 0 */
     require_positive(&met, nearest_distance * -slope - height,
@@ -213,9 +214,9 @@ static inline struct hit_error track_hit(const struct packed_scene *scene, const
             .point = distance_error(scene, ray, hit->surface, (double)hit->distance, error) + rounding(size),
         };
     layout_vec4 sphere = scene->spheres[hit->surface].center_radius;
-    struct tracked_passage passage = track_passage(sphere, ray->origin, ray->direction, error);
+    struct tracked_approach approach = track_approach(sphere, ray->origin, ray->direction, error);
     double radius = (double)sphere.w;
-    double normal = passage.e_clearance / passage.half_chord + rounding(1);
+    double normal = approach.e_clearance / approach.half_chord + rounding(1);
     return (struct hit_error){
         .normal = normal,
         .point = radius * normal + rounding(size + radius),

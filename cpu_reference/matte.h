@@ -50,14 +50,15 @@ static inline real receive(const struct packed_scene *scene, const struct matte_
         .direction = *to_light,
         .length = distance,
         .surface = hit->surface,
-        .inward = hit->leaving,
+        .inward = hit->from_inside,
     };
     if (is_blocked(scene, &segment)) {
         NOTE_BLOCKED(scene, &segment);
         return 0;
     }
-    real factor = oren_nayar(hit->material->parameters.w, hit->material->oren_nayar_b.x, *to_light,
-                             matte->ray->direction, cos_in, matte->cos_out);
+    real factor =
+        oren_nayar(hit->material->parameters.OREN_NAYAR_A, hit->material->more_parameters.OREN_NAYAR_B,
+                   *to_light, matte->ray->direction, cos_in, matte->cos_out);
     NOTE_RECEIVED(factor * (inverse * inverse));
     return factor * (inverse * inverse);
 }

@@ -3,9 +3,9 @@
  * or REFERENCE_RECORD for the one that tells what it does. */
 #include "camera.h"
 #include "dielectric.h"
+#include "escape.h"
 #include "events.h"
 #include "geometry.h"
-#include "lost.h"
 #include "matte.h"
 #include "reference.h"
 #include "sobol.h"
@@ -38,14 +38,14 @@ static void trace_secondary(struct sample *sample, const struct path *path)
 /* The charge with what a ray of this weight may bring on top, rounded up. */
 static real charge_with(const struct sample *sample, real weight)
 {
-    return (sample->charge + weight * (real)sample->scene->view.truncation.x) * (real)ROUND_UP;
+    return (sample->charge + weight * (real)sample->scene->view.truncation.RADIANCE_BOUND) * (real)ROUND_UP;
 }
 
 /* Whether a ray of this weight is to be traced; otherwise it has been charged. */
 static bool is_traced(struct sample *sample, real weight)
 {
     real charge = charge_with(sample, weight);
-    real left = (real)sample->scene->view.truncation.y - sample->charge;
+    real left = (real)sample->scene->view.truncation.ALLOWANCE - sample->charge;
     if (weight > (real)SMALLEST_WEIGHT && charge - sample->charge > (real)LARGEST_SHARE * left)
         return true;
     sample->charge = charge;
@@ -75,9 +75,10 @@ static void trace_dielectric(struct sample *sample, const struct path *path, con
 {
     struct vec3 direction = path->ray.direction;
     real cos_in = at_least_zero(-dot(hit->normal, direction));
-    layout_vec4 ior = hit->material->parameters;
-    struct refraction refraction = hit->leaving ? refract(direction, hit->normal, cos_in, ior.z, ior.w)
-                                                : refract(direction, hit->normal, cos_in, ior.x, ior.y);
+    layout_vec4 glass = hit->material->parameters;
+    struct refraction refraction =
+        hit->from_inside ? refract(direction, hit->normal, cos_in, glass.ETA_EXITING, glass.KAPPA_EXITING)
+                         : refract(direction, hit->normal, cos_in, glass.ETA_ENTERING, glass.KAPPA_ENTERING);
     note(&sample->tally, refraction.total);
     RECORD_SPLIT(cos_in, refraction);
     if (refraction.total) {
@@ -86,7 +87,7 @@ static void trace_dielectric(struct sample *sample, const struct path *path, con
     }
     struct path refracted = reflected;
     refracted.ray.direction = refraction.direction;
-    refracted.ray.inward = !hit->leaving;
+    refracted.ray.inward = !hit->from_inside;
     refracted.weight = path->weight * (1 - refraction.reflectance);
     refracted.branch = 2 * path->branch + 1;
     reflected.weight = path->weight * refraction.reflectance;
@@ -110,12 +111,12 @@ static void trace(struct sample *sample, const struct path *path)
     RECORD_RAY(sample->index, path);
     bool met = find_hit(scene, ray, &hit);
     RECORD_HIT(&hit);
-    note(&sample->tally, (uint32_t)(hit.surface + 1) * 2 + hit.leaving);
+    note(&sample->tally, (uint32_t)(hit.surface + 1) * 2 + hit.from_inside);
     if (!met) {
         gather(sample, path->weight, vector_of(scene->view.background));
         return;
     }
-    if (hit.material->tags.x == KIND_MATTE) {
+    if (hit.material->tags.SURFACE_KIND == KIND_MATTE) {
         /* each branch draws light samples of its own, the same whichever others are traced */
         uint32_t seed = hash32(sample->seed + path->branch * (uint32_t)scene->quad_light_count);
         gather(sample, path->weight, reflect_lights(scene, ray, &hit, seed, sample->index, &sample->tally));
@@ -132,14 +133,14 @@ static void trace(struct sample *sample, const struct path *path)
         .origin = hit.point,
         .direction = reflect(ray->direction, hit.normal, at_least_zero(-dot(hit.normal, ray->direction))),
         .surface = hit.surface,
-        .inward = hit.leaving,
+        .inward = hit.from_inside,
     };
-    if (hit.material->tags.x == KIND_TRANSPARENT) {
+    if (hit.material->tags.SURFACE_KIND == KIND_TRANSPARENT) {
         trace_dielectric(sample, path, &hit, reflected);
         return;
     }
-    bool lost = scene->view.between_mirrors.w != 0 && is_lost(scene, &reflected.ray);
-    RECORD_UNTRACED(lost, UNTRACED_LOST, path->weight, 0, sample->charge);
+    bool lost = scene->view.between_mirrors.w != 0 && escapes(scene, &reflected.ray);
+    RECORD_UNTRACED(lost, UNTRACED_ESCAPES, path->weight, 0, sample->charge);
     if (!lost)
         trace_secondary(sample, &reflected);
 }

@@ -52,7 +52,7 @@ void emit(int kind, ivec4 facts, real3 first, real3 second, real third)
 #define emit_hit(hit, point, normal)                                                                       \
     {                                                                                                      \
         bool met = hit.surface >= 0;                                                                       \
-        emit(EVENT_HIT, ivec4(hit.surface, hit.leaving, 0, 0), met ? normal : real3(0),                    \
+        emit(EVENT_HIT, ivec4(hit.surface, hit.from_inside, 0, 0), met ? normal : real3(0),                    \
              met ? point : real3(0), met ? hit.distance : real(0));                                        \
     }
 #define emit_split(cos_in, refraction)                                                                     \

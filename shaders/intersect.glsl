@@ -9,23 +9,23 @@ struct Ray {
 
 // Where a line passes a sphere (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray
 // Tracing Gems, chapter 7): all terms are of the sphere's size, however far away it is.
-struct Passage {
+struct Approach {
     real along;             // from the origin to the closest approach
-    real3 foot;             // from the closest approach to the centre
+    real3 center_offset;             // from the closest approach to the centre
     real half_chord_squared; // negative: it misses
 };
 
-Passage pass_sphere(real3 to_center, real3 direction, real radius)
+Approach approach_sphere(real3 to_center, real3 direction, real radius)
 {
     exact real along = dot3(to_center, direction);
-    exact real3 foot = to_center - along * direction;
-    exact real half_chord_squared = radius * radius - dot3(foot, foot);
-    return Passage(along, foot, half_chord_squared);
+    exact real3 center_offset = to_center - along * direction;
+    exact real half_chord_squared = radius * radius - dot3(center_offset, center_offset);
+    return Approach(along, center_offset, half_chord_squared);
 }
 
-real half_chord_of(Passage passage)
+real half_chord_of(Approach approach)
 {
-    exact real half_chord = square_root(passage.half_chord_squared > real(0) ? passage.half_chord_squared : real(0));
+    exact real half_chord = square_root(approach.half_chord_squared > real(0) ? approach.half_chord_squared : real(0));
     return half_chord;
 }
 
@@ -38,34 +38,34 @@ bool lies_inside(real3 to_center, real radius)
 struct Hit {
     real distance;
     int surface;  // -1: none
-    bool leaving; // met from the inside of a sphere, or from the glass side of a transparent plane
+    bool from_inside; // met from the inside of a sphere, or from the glass side of a transparent plane
     vec4 shape;   // center_radius or normal_offset
     vec4 parameters;
     float oren_nayar_b;
     int kind;
-    int rank;
-    real3 foot; // sphere: see Passage
+    int file_order;
+    real3 center_offset; // sphere: see Approach
     real half_chord;
 };
 
 // Of surfaces at the same distance the first of the scene file counts.
-bool comes_first(real distance, int rank, Hit nearest)
+bool comes_first(real distance, int file_order, Hit nearest)
 {
     if (MIXED_ORDER)
-        return distance < nearest.distance || (distance == nearest.distance && rank < nearest.rank);
+        return distance < nearest.distance || (distance == nearest.distance && file_order < nearest.file_order);
     return distance < nearest.distance;
 }
 
-void take(bool closer, inout Hit nearest, real distance, int surface, bool leaving, vec4 shape, PackedSurface material)
+void take(bool closer, inout Hit nearest, real distance, int surface, bool from_inside, vec4 shape, PackedSurface material)
 {
     nearest.distance = closer ? distance : nearest.distance;
     nearest.surface = closer ? surface : nearest.surface;
-    nearest.leaving = closer ? leaving : nearest.leaving;
+    nearest.from_inside = closer ? from_inside : nearest.from_inside;
     nearest.shape = closer ? shape : nearest.shape;
     nearest.parameters = closer ? material.parameters : nearest.parameters;
-    nearest.oren_nayar_b = closer ? material.oren_nayar_b.x : nearest.oren_nayar_b;
-    nearest.kind = closer ? material.tags.x : nearest.kind;
-    nearest.rank = closer ? material.tags.y : nearest.rank;
+    nearest.oren_nayar_b = closer ? material.more_parameters.OREN_NAYAR_B : nearest.oren_nayar_b;
+    nearest.kind = closer ? material.tags.SURFACE_KIND : nearest.kind;
+    nearest.file_order = closer ? material.tags.FILE_ORDER : nearest.file_order;
 }
 
 // Whether any ray can run inside sphere i.
@@ -80,30 +80,30 @@ void meet_sphere(Ray ray, int i, inout Hit nearest)
     PackedSurface material = get_sphere(i).surface;
     real radius = real(shape.w);
     exact real3 to_center = real3(shape.xyz) - ray.origin;
-    Passage passage = pass_sphere(to_center, ray.direction, radius);
+    Approach approach = approach_sphere(to_center, ray.direction, radius);
     bool own = ray.surface == i;
 
     // From outside: the near end of the chord.
-    exact real half_chord = half_chord_of(passage);
-    exact real distance = passage.along - half_chord;
-    bool met = !own && passage.along > real(0) && passage.half_chord_squared > real(0);
-    bool leaving = false;
+    exact real half_chord = half_chord_of(approach);
+    exact real distance = approach.along - half_chord;
+    bool met = !own && approach.along > real(0) && approach.half_chord_squared > real(0);
+    bool from_inside = false;
     if (rays_enter(i)) {
         // From the surface inward the way is a whole chord: it is certain to end on the sphere.
         bool through = own && ray.inward;
-        exact real chord = passage.along > real(0) ? real(2) * passage.along : real(0);
+        exact real chord = approach.along > real(0) ? real(2) * approach.along : real(0);
         bool inside = false;
         if (SPHERES_HOLD_RAYS)
-            inside = !own && material.tags.z != 0 && lies_inside(to_center, radius);
-        exact real far_end = passage.along + half_chord;
+            inside = !own && material.tags.HOLDS_RAYS != 0 && lies_inside(to_center, radius);
+        exact real far_end = approach.along + half_chord;
         far_end = far_end > real(0) ? far_end : real(0);
-        leaving = through || inside;
-        met = met || leaving;
+        from_inside = through || inside;
+        met = met || from_inside;
         distance = through ? chord : (inside ? far_end : distance);
     }
-    bool closer = met && comes_first(distance, material.tags.y, nearest);
-    take(closer, nearest, distance, i, leaving, shape, material);
-    nearest.foot = closer ? passage.foot : nearest.foot;
+    bool closer = met && comes_first(distance, material.tags.FILE_ORDER, nearest);
+    take(closer, nearest, distance, i, from_inside, shape, material);
+    nearest.center_offset = closer ? approach.center_offset : nearest.center_offset;
     nearest.half_chord = closer ? half_chord : nearest.half_chord;
 }
 
@@ -126,16 +126,16 @@ void meet_plane(Ray ray, int i, inout Hit nearest)
     exact real slope = dot_normal(i, normal, ray.direction);
     exact real height = dot_normal(i, normal, ray.origin) - real(shape.w);
     bool met = slope < -real(PARALLEL);
-    bool leaving = false;
-    bool transparent = GLASS_PLANES && material.tags.x == KIND_TRANSPARENT;
+    bool from_inside = false;
+    bool transparent = GLASS_PLANES && material.tags.SURFACE_KIND == KIND_TRANSPARENT;
     if (transparent) {
-        leaving = slope > real(0);
-        met = leaving ? slope > real(PARALLEL) && height < real(0) : met && height > real(0);
+        from_inside = slope > real(0);
+        met = from_inside ? slope > real(PARALLEL) && height < real(0) : met && height > real(0);
     } else {
         height = height > real(0) ? height : real(0); // an opaque plane is never behind the ray's origin
     }
     exact real distance = divide(height, -slope);
-    take(met && ray.surface != SPHERES + i && comes_first(distance, material.tags.y, nearest), nearest, distance, SPHERES + i, leaving, shape, material);
+    take(met && ray.surface != SPHERES + i && comes_first(distance, material.tags.FILE_ORDER, nearest), nearest, distance, SPHERES + i, from_inside, shape, material);
 }
 
 Hit nearest_hit(Ray ray)
@@ -143,13 +143,13 @@ Hit nearest_hit(Ray ray)
     Hit nearest;
     nearest.distance = real(FARTHEST_HIT);
     nearest.surface = -1;
-    nearest.leaving = false;
+    nearest.from_inside = false;
     nearest.shape = vec4(0);
     nearest.parameters = vec4(0);
     nearest.oren_nayar_b = 0.0;
     nearest.kind = KIND_MATTE;
-    nearest.rank = 0;
-    nearest.foot = real3(0);
+    nearest.file_order = 0;
+    nearest.center_offset = real3(0);
     nearest.half_chord = real(0);
     FOR_EACH(i, SPHERES, meet_sphere(ray, i, nearest);)
     FOR_EACH(i, PLANES, meet_plane(ray, i, nearest);)
@@ -164,7 +164,7 @@ void hit_point(Ray ray, Hit hit, out real3 point, out real3 facing_normal)
     if (hit.surface < SPHERES) {
         real3 center = real3(hit.shape.xyz);
         real radius = real(hit.shape.w);
-        exact real3 from_center = -(hit.foot + (hit.leaving ? -hit.half_chord : hit.half_chord) * ray.direction);
+        exact real3 from_center = -(hit.center_offset + (hit.from_inside ? -hit.half_chord : hit.half_chord) * ray.direction);
         normal = unit(from_center);
         position = center + radius * normal;
     } else {
@@ -174,7 +174,7 @@ void hit_point(Ray ray, Hit hit, out real3 point, out real3 facing_normal)
         position = position - off * normal;
     }
     point = position;
-    facing_normal = hit.leaving ? -normal : normal;
+    facing_normal = hit.from_inside ? -normal : normal;
 }
 
 // Whether sphere i stands between a point on `surface` (its inner side if `inward`) and a light point at
@@ -184,15 +184,15 @@ bool sphere_shadows(int i, real3 point, int surface, bool inward, real3 to_light
     real3 center = real3(get_sphere(i).center_radius.xyz);
     real radius = real(get_sphere(i).center_radius.w);
     exact real3 to_center = center - point;
-    Passage passage = pass_sphere(to_center, to_light, radius);
+    Approach approach = approach_sphere(to_center, to_light, radius);
     bool own = surface == i;
-    bool shadows = passage.along > real(0) && passage.half_chord_squared > real(0) && passage.along < distance;
+    bool shadows = approach.along > real(0) && approach.half_chord_squared > real(0) && approach.along < distance;
     if (rays_enter(i) || SPHERES_HOLD_LIGHTS) {
         bool point_inside = own && inward;
         bool light_inside = false;
-        if (SPHERES_HOLD_RAYS && get_sphere(i).surface.tags.z != 0 && !own)
+        if (SPHERES_HOLD_RAYS && get_sphere(i).surface.tags.HOLDS_RAYS != 0 && !own)
             point_inside = lies_inside(to_center, radius);
-        if (SPHERES_HOLD_LIGHTS && get_sphere(i).surface.tags.w != 0) {
+        if (SPHERES_HOLD_LIGHTS && get_sphere(i).surface.tags.HOLDS_LIGHTS != 0) {
             exact real3 light_to_center = center - light;
             light_inside = lies_inside(light_to_center, radius);
         }
@@ -206,12 +206,12 @@ bool sphere_shadows(int i, real3 point, int surface, bool inward, real3 to_light
 // front of every opaque plane.
 bool plane_shadows(int i, real3 point, int surface, real3 light)
 {
-    if (get_plane(i).surface.tags.z == 0)
+    if (get_plane(i).surface.tags.CASTS_SHADOWS == 0)
         return false;
     real3 normal = real3(get_plane(i).normal_offset.xyz);
     real offset = real(get_plane(i).normal_offset.w);
     exact real light_height = dot3(normal, light) - offset;
-    if (!(GLASS_PLANES && get_plane(i).surface.tags.x == KIND_TRANSPARENT))
+    if (!(GLASS_PLANES && get_plane(i).surface.tags.SURFACE_KIND == KIND_TRANSPARENT))
         return light_height < real(0);
     exact real point_height = dot3(normal, point) - offset;
     return surface != SPHERES + i && ((light_height < real(0)) != (point_height < real(0)));

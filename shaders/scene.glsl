@@ -28,8 +28,8 @@ layout(constant_id = 23) const bool CORRECTED_ROOT = true;     // with CORRECTED
 layout(constant_id = 24) const bool PRUNES = false; // rays are left out within the view's allowance
 
 layout(constant_id = 25) const uint TURN_LIMIT = ~0u; // of loops, after which the driver ends them all
-layout(constant_id = 26) const bool PATIENT = false;  // see patience.glsl
-layout(constant_id = 27) const bool RAYS_GET_LOST = false; // between parallel mirrors
+layout(constant_id = 26) const bool RESUMABLE = false;  // see resume.glsl
+layout(constant_id = 27) const bool RAYS_ESCAPE = false; // between parallel mirrors
 
 const bool SECONDARY_RAYS = (MIRRORS || GLASS) && MAX_BOUNCES > 0;
 

@@ -47,7 +47,7 @@ typedef struct PackedSurface PackedSurface;
 #define OUTPUT_SIGNATURE 2
 #define OUTPUT_TRUNCATION 3 /* the charges of the pixel's samples, summed, 0 and 0 */
 
-/* A pixel's first value where it has none yet: a patient pipeline has part of its ray tree left; or its loops were,
+/* A pixel's first value where it has none yet: a resumable pipeline has part of its ray tree left; or its loops were,
  * or may have been, ended by the driver. */
 #define UNFINISHED (-1.0)
 #define TOO_LONG (-2.0)
@@ -67,7 +67,7 @@ typedef struct PackedSurface PackedSurface;
 /* What both tracers can tell of one pixel: events in the order of the recursion. Each has a head and values: two
  * vectors and a number. */
 #define EVENT_RAY 0      /* facts: surface left, inward; values: origin, direction, weight */
-#define EVENT_HIT 1      /* facts: surface or -1, leaving; values: normal, point, distance */
+#define EVENT_HIT 1      /* facts: surface or -1, from_inside; values: normal, point, distance */
 #define EVENT_SPLIT 2    /* facts: total reflection; values: refracted direction, (cos_in, k_r) */
 #define EVENT_UNTRACED 3 /* facts: UNTRACED_; values: (weight, charge of the sample so far) */
 #define EVENT_LIGHT 4    /* facts: light, sample, LIGHT_, blocker; values: point, (distance, cos_in, received), area */
@@ -80,7 +80,7 @@ typedef struct PackedSurface PackedSurface;
 #define UNTRACED_REFLECTED 0
 #define UNTRACED_REFRACTED 1
 #define UNTRACED_BOUNCES 2 /* max_bounces */
-#define UNTRACED_LOST 3    /* between parallel mirrors, where nothing else is */
+#define UNTRACED_ESCAPES 3    /* between parallel mirrors, where nothing else is */
 
 #define LIGHT_TOO_NEAR 0 /* to shine, see NEAREST_LIGHT_SQUARED */
 #define LIGHT_BEHIND 1   /* the surface */
@@ -91,12 +91,26 @@ struct EventHead {
     LAYOUT_IVEC4 facts;
 };
 
+/* What the slots of vectors hold: surface.tags.FILE_ORDER, and so on. */
+#define OREN_NAYAR_A w    /* PackedSurface.parameters of matte; albedo / pi is in xyz */
+#define ETA_ENTERING x    /* of glass: eta = n1 / n2 for a ray that enters the body */
+#define KAPPA_ENTERING y  /* 1 - eta^2 */
+#define ETA_EXITING z     /* for one that exits it */
+#define KAPPA_EXITING w
+#define OREN_NAYAR_B x    /* PackedSurface.more_parameters of matte */
+#define SURFACE_KIND x    /* PackedSurface.tags: KIND_ */
+#define FILE_ORDER y      /* place in the scene file; the first of equally near surfaces is hit */
+#define CASTS_SHADOWS z   /* of planes: 0 where a plane cannot stand between a light and what is seen */
+#define HOLDS_RAYS z      /* of spheres: a ray or a shading point may lie inside, other than on the surface */
+#define HOLDS_LIGHTS w    /* of spheres: so may a point of a light */
+#define SHARED_A x        /* PackedView.matte: Oren-Nayar's A and B, where all matte surfaces share them */
+#define SHARED_B y
+#define RADIANCE_BOUND x  /* PackedView.truncation: no ray brings more radiance than this */
+#define ALLOWANCE y       /* what a sample may be charged for rays left out; negative: none is left out */
+
 struct PackedSurface {
-    /* matte: albedo / pi in xyz, Oren-Nayar's A in w.
-     * transparent: eta entering, 1 - eta^2 entering, eta leaving, 1 - eta^2 leaving. */
     LAYOUT_VEC4 parameters;
-    LAYOUT_VEC4 oren_nayar_b; /* matte: Oren-Nayar's B in x */
-    /* x: KIND_; y: rank in the scene file, the lower wins a tie; z: plane only, whether it can shadow. */
+    LAYOUT_VEC4 more_parameters;
     LAYOUT_IVEC4 tags;
 };
 
@@ -132,9 +146,7 @@ struct PackedView {
     LAYOUT_VEC4 half_pixel_right; /* on that plane */
     LAYOUT_VEC4 half_pixel_down;
     LAYOUT_VEC4 background; /* radiance */
-    LAYOUT_VEC4 matte;      /* Oren-Nayar's A in x and B in y, where all matte surfaces share them */
-    /* x: no ray brings more radiance than this; y: what a sample may be charged for rays that are left out,
-     * negative where all are traced. */
+    LAYOUT_VEC4 matte;
     LAYOUT_VEC4 truncation;
     LAYOUT_VEC4 between_mirrors; /* xyz: unit normal of parallel mirrors, w: not 0 where rays that get lost
                                   * between them are to be left out */

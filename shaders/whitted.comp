@@ -13,7 +13,7 @@
 #include "intersect.glsl"
 #include "shade.glsl"
 #include "dielectric.glsl"
-#include "lost.glsl"
+#include "escape.glsl"
 #include "path.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
@@ -21,7 +21,7 @@ layout(std430, set = 0, binding = 5) buffer Picture { real picture[]; }; // the 
 layout(push_constant) uniform TileBlock {
     uvec2 origin, size, image_size; // pixels
     uint first_sample, end_sample;  // of SAMPLES, in this dispatch
-    uint goes_on;                   // patient: not 0 after the first dispatch of a sample
+    uint goes_on;                   // resumable: not 0 after the first dispatch of a sample
 } tile;
 uvec2 tile_origin, tile_size, image_size;
 uint first_sample, end_sample;
@@ -39,11 +39,11 @@ struct Pixel {
     Tally tally;
 };
 
-#include "patience.glsl"
+#include "resume.glsl"
 
 void charge(inout Pixel pixel, real weight)
 {
-    exact real sum = (pixel.charge + weight * real(hoisted_view.truncation.x)) * real(ROUND_UP);
+    exact real sum = (pixel.charge + weight * real(hoisted_view.truncation.RADIANCE_BOUND)) * real(ROUND_UP);
     pixel.charge = sum;
 }
 
@@ -55,7 +55,7 @@ bool is_traced(inout Pixel pixel, real weight)
         real before = pixel.charge;
         charge(pixel, weight);
         exact real more = pixel.charge - before;
-        exact real share = real(LARGEST_SHARE) * (real(hoisted_view.truncation.y) - before);
+        exact real share = real(LARGEST_SHARE) * (real(hoisted_view.truncation.ALLOWANCE) - before);
         traced = traced && !(PRUNES && more <= share);
         pixel.charge = traced ? before : pixel.charge;
     }
@@ -89,9 +89,9 @@ real3 matte_radiance(inout Pixel pixel, Path path, Hit hit, real3 point, real3 n
     matte.ray_direction = path.ray.direction;
     matte.cos_out = cos_out;
     matte.surface = hit.surface;
-    matte.inward = hit.leaving;
-    matte.a = real(ONE_ROUGHNESS ? hoisted_view.matte.x : hit.parameters.w);
-    matte.b = real(ONE_ROUGHNESS ? hoisted_view.matte.y : hit.oren_nayar_b);
+    matte.inward = hit.from_inside;
+    matte.a = real(ONE_ROUGHNESS ? hoisted_view.matte.SHARED_A : hit.parameters.OREN_NAYAR_A);
+    matte.b = real(ONE_ROUGHNESS ? hoisted_view.matte.SHARED_B : hit.oren_nayar_b);
     uint seed = hash(pixel.seed + path.branch * uint(QUAD_LIGHTS));
     exact real3 radiance =
         real3(hit.parameters.xyz) * direct_light(matte, pixel.sample_index, seed, pixel.tally);
@@ -111,15 +111,15 @@ bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real
     path.ray.origin = point;
     path.ray.direction = reflected(incident, normal, cos_in);
     path.ray.surface = hit.surface;
-    path.ray.inward = hit.leaving;
+    path.ray.inward = hit.from_inside;
     if (!GLASS || hit.kind != KIND_TRANSPARENT) {
-        bool lost = RAYS_GET_LOST && is_lost(path.ray);
-        emit_untraced(lost, UNTRACED_LOST, path.weight, pixel.charge);
+        bool lost = RAYS_ESCAPE && escapes(path.ray);
+        emit_untraced(lost, UNTRACED_ESCAPES, path.weight, pixel.charge);
         return !lost;
     }
 
-    real eta = real(hit.leaving ? hit.parameters.z : hit.parameters.x);
-    real kappa = real(hit.leaving ? hit.parameters.w : hit.parameters.y);
+    real eta = real(hit.from_inside ? hit.parameters.ETA_EXITING : hit.parameters.ETA_ENTERING);
+    real kappa = real(hit.from_inside ? hit.parameters.KAPPA_EXITING : hit.parameters.KAPPA_ENTERING);
     Refraction refraction = refracted(incident, normal, cos_in, eta, kappa);
     note(pixel.tally, uint(refraction.total));
     emit_split(cos_in, refraction);
@@ -137,7 +137,7 @@ bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real
         if (reflects)
             push(path, pending);
         path.ray.direction = refraction.direction;
-        path.ray.inward = !hit.leaving;
+        path.ray.inward = !hit.from_inside;
         path.weight = refracted_weight;
         --path.branch;
     }
@@ -167,16 +167,16 @@ void add_leaf(inout Pixel pixel, Path path, Hit hit, real3 point, real3 normal)
     pixel.rounding = rounding;
 }
 
-// One turn of the loop traces one ray of the tree. Whether a patient pipeline has left some of the tree.
+// One turn of the loop traces one ray of the tree. Whether a resumable pipeline has left some of the tree.
 bool trace(inout Pixel pixel, inout Path path, inout int pending)
 {
     bool goes_on = true;
     uint rays = 0u, leaves = 0u;
-    while (goes_on && (!PATIENT || rays < PORTION)) {
+    while (goes_on && (!RESUMABLE || rays < PORTION)) {
         ++rays;
         emit_ray(pixel.sample_index, path);
         Hit hit = nearest_hit(path.ray);
-        note(pixel.tally, uint(hit.surface + 1) * 2u + uint(hit.leaving));
+        note(pixel.tally, uint(hit.surface + 1) * 2u + uint(hit.from_inside));
         real3 point, normal;
         hit_point(path.ray, hit, point, normal);
         emit_hit(hit, point, normal);
@@ -201,7 +201,7 @@ bool trace(inout Pixel pixel, inout Path path, inout int pending)
     }
     most_rays = max(most_rays, rays);
     most_leaves = max(most_leaves, leaves);
-    return PATIENT && goes_on;
+    return RESUMABLE && goes_on;
 }
 
 // Whether the sample is finished, that is, added to the pixel.
@@ -211,7 +211,7 @@ bool render_sample(inout Pixel pixel, Path path, uint place)
     pixel.leaves = real3(0);
     pixel.rounding = real3(0);
     pixel.charge = real(0);
-    if (PATIENT && sample_goes_on)
+    if (RESUMABLE && sample_goes_on)
         load(place, pixel, path, pending);
     if (trace(pixel, path, pending)) {
         save(place, pixel, path, pending);
@@ -244,9 +244,9 @@ real3 render_pixel(uvec2 position, uint place)
 {
     Pixel pixel = Pixel(real3(0), real3(0), real3(0), real(0), real(0), 0u, 0u, Tally(0u, 0u, 0u));
     real3 left = real3(0);
-    if (SAMPLES > 1 || PATIENT)
+    if (SAMPLES > 1 || RESUMABLE)
         left = real3(picture[3u * place], picture[3u * place + 1u], picture[3u * place + 2u]);
-    if (PATIENT && sample_goes_on && left.x != real(UNFINISHED))
+    if (RESUMABLE && sample_goes_on && left.x != real(UNFINISHED))
         return left;
     if (SAMPLES > 1 || QUAD_LIGHTS > 0)
         pixel.seed = hash(hash(position.x) + position.y);
@@ -265,7 +265,7 @@ real3 render_pixel(uvec2 position, uint place)
             sequence_point(sequence, k, x, y);
         finished = render_sample(pixel, primary_path(position, x, y), place);
     }
-    if (PATIENT && !finished)
+    if (RESUMABLE && !finished)
         return real3(UNFINISHED);
     if (OUTPUT == OUTPUT_RAYS)
         return real3(real(SAMPLES), real(pixel.tally.secondary_rays), real(pixel.tally.shadow_rays));
@@ -304,7 +304,7 @@ void main()
         begin_pixel_events(in_tile);
         uint place = inside ? in_tile.y * tile_size.x + in_tile.x : 0u;
         real3 value = real3(0);
-        if (!PATIENT || inside)
+        if (!RESUMABLE || inside)
             value = render_pixel(tile_origin + in_tile, place);
         if (inside)
             for (uint c = 0u; c < 3u; ++c)

@@ -26,7 +26,7 @@ target_include_directories(unit_arithmetic PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/a
 # library's.
 set(host ${PROJECT_SOURCE_DIR}/host)
 function(add_pretender name folder)
-    add_executable(${name} ${host}/main.c ${ARGN} ${${folder}_headers})
+    add_executable(${name} ${host}/cli/main.c ${ARGN} ${${folder}_headers})
     target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${folder} ${PROJECT_BINARY_DIR}/shaders)
     target_link_libraries(${name} PRIVATE vkwhitted_host)
 endfunction()
@@ -34,8 +34,8 @@ endfunction()
 add_test_shader(inexact whitted_exact ${shaders}/whitted.comp -DINEXACT_NATIVE)
 add_test_shader(inexact whitted_corrected ${shaders}/whitted.comp -DINEXACT_NATIVE -DCORRECTED)
 add_test_shader(inexact arithmetic_probe ${shaders}/probe.comp -DINEXACT_NATIVE)
-add_pretender(vkwhitted_inexact inexact ${host}/whitted_spirv.c ${host}/probe.c)
-add_pretender(vkwhitted_misjudged inexact ${host}/whitted_spirv.c) # whose probe finds the true device
+add_pretender(vkwhitted_inexact inexact ${host}/tracer/whitted_spirv.c ${host}/vulkan/probe.c)
+add_pretender(vkwhitted_misjudged inexact ${host}/tracer/whitted_spirv.c) # whose probe finds the true device
 add_dependencies(vkwhitted_misjudged vkwhitted_inexact) # which makes the shared headers
 
 # A device that adds c a little wrongly.
@@ -47,7 +47,7 @@ if(contracting_probe STREQUAL probe)
 endif()
 file(CONFIGURE OUTPUT contracting_probe.comp CONTENT "${contracting_probe}" @ONLY)
 add_test_shader(contracting arithmetic_probe ${CMAKE_CURRENT_BINARY_DIR}/contracting_probe.comp)
-add_pretender(vkwhitted_contracting contracting ${host}/probe.c)
+add_pretender(vkwhitted_contracting contracting ${host}/vulkan/probe.c)
 
 set(size 300x200)
 foreach(figure figure_2b figure_3c figure_4)

@@ -26,7 +26,7 @@ function(add_broken_program name file right wrong)
             COMMENT "Compiling ${name}/${variant}"
             VERBATIM)
     endforeach()
-    add_executable(${name} ${PROJECT_SOURCE_DIR}/host/main.c ${PROJECT_SOURCE_DIR}/host/whitted_spirv.c
+    add_executable(${name} ${PROJECT_SOURCE_DIR}/host/cli/main.c ${PROJECT_SOURCE_DIR}/host/tracer/whitted_spirv.c
                            ${broken}/whitted_exact.h ${broken}/whitted_exact_events.h)
     target_include_directories(${name} BEFORE PRIVATE ${broken} ${PROJECT_BINARY_DIR}/shaders)
     target_link_libraries(${name} PRIVATE vkwhitted_host)
@@ -39,9 +39,9 @@ add_broken_program(vkwhitted_broken_k_r dielectric.glsl "return Refraction(total
                    "return Refraction(total, intBitsToFloat(floatBitsToInt(reflectance) + 1),")
 add_broken_program(vkwhitted_broken_total dielectric.glsl "total = !(cos_out_squared > real(0))"
                    "total = !(cos_out_squared > real(0.9))")
-add_broken_program(vkwhitted_broken_shadow intersect.glsl " && passage.along < distance" "")
-add_broken_program(vkwhitted_broken_normal intersect.glsl "facing_normal = hit.leaving ? -normal : normal"
-                   "facing_normal = intBitsToFloat(floatBitsToInt(hit.leaving ? -normal : normal) + 1)")
+add_broken_program(vkwhitted_broken_shadow intersect.glsl " && approach.along < distance" "")
+add_broken_program(vkwhitted_broken_normal intersect.glsl "facing_normal = hit.from_inside ? -normal : normal"
+                   "facing_normal = intBitsToFloat(floatBitsToInt(hit.from_inside ? -normal : normal) + 1)")
 
 # Wrong in the picture's pipeline, right in the one that records.
 set(half ${CMAKE_CURRENT_BINARY_DIR}/vkwhitted_broken_picture_shader)
@@ -51,7 +51,7 @@ add_custom_command(
             ${half}/whitted_exact.h
     DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/vkwhitted_broken_k_r_shader/whitted_exact.h
     VERBATIM)
-add_executable(vkwhitted_broken_picture ${PROJECT_SOURCE_DIR}/host/main.c ${PROJECT_SOURCE_DIR}/host/whitted_spirv.c
+add_executable(vkwhitted_broken_picture ${PROJECT_SOURCE_DIR}/host/cli/main.c ${PROJECT_SOURCE_DIR}/host/tracer/whitted_spirv.c
                                         ${half}/whitted_exact.h)
 target_include_directories(vkwhitted_broken_picture BEFORE PRIVATE ${half} ${PROJECT_BINARY_DIR}/shaders)
 target_link_libraries(vkwhitted_broken_picture PRIVATE vkwhitted_host)

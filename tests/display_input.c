@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "base/clock.h"
 #include "test_window.h"
 
 /* Adds up what comes before the R that is pressed now. */

@@ -13,8 +13,8 @@
 #include <sys/wait.h>
 #include <time.h>
 
-#include "progress.h"
-#include "srgb.h"
+#include "base/clock.h"
+#include "image/srgb.h"
 #include "x11_window.h"
 #include "xvfb.h"
 

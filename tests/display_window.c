@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "base/clock.h"
 #include "test_folder.h"
 #include "test_window.h"
 
@@ -128,13 +129,12 @@ static void test_no_display(void **state)
     static const char *const names[] = {"", ":4711"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         char line[256];
-        struct vulkan_context *none;
+        struct vulkan_options options = {0};
         setenv("DISPLAY", names[i], 1);
         test_messages_begin();
-        enum status status = vulkan_context_create(&(struct vulkan_options){.presents = true}, &none);
+        enum status status = window_system_open(&options);
         int lines = test_messages_end(line);
         assert_int_equal(status, STATUS_UNABLE);
-        assert_null(none);
         assert_int_equal(lines, 1);
         assert_non_null(strstr(line, "error: cannot open a window: "));
     }

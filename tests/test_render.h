@@ -5,10 +5,10 @@
 
 #include <string.h>
 
-#include "pack.h"
-#include "render.h"
-#include "scene.h"
-#include "vulkan_context.h"
+#include "scene/pack.h"
+#include "scene/scene.h"
+#include "tracer/render.h"
+#include "vulkan/context.h"
 
 static struct vulkan_context *test_context;
 

@@ -4,9 +4,10 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "display.h"
-#include "fit.h"
-#include "progress.h"
+#include "base/clock.h"
+#include "watch/display.h"
+#include "watch/fit.h"
+#include "watch/window_system.h"
 #include "x11_window.h"
 #include "xvfb.h"
 
@@ -35,14 +36,18 @@ static inline int open_context(void **state)
 {
     (void)state;
     server = xvfb_start();
-    const struct vulkan_options options = {.validate = true, .presents = true};
-    return server > 0 && vulkan_context_create(&options, &context) == STATUS_DONE ? 0 : -1;
+    struct vulkan_options options = {.validate = true};
+    return server > 0 && window_system_open(&options) == STATUS_DONE &&
+                   vulkan_context_create(&options, &context) == STATUS_DONE
+               ? 0
+               : -1;
 }
 
 static inline int close_context(void **state)
 {
     (void)state;
     enum status status = vulkan_context_destroy(&context);
+    window_system_close();
     xvfb_kill(server);
     return status == STATUS_DONE ? 0 : -1;
 }

@@ -15,11 +15,11 @@
 #include <stdio.h>
 
 #include "arithmetic_far.h"
-#include "arithmetic_inputs.h"
 #include "arithmetic_native.h"
 #include "arithmetic_within_bounds.h"
-#include "probe.h"
-#include "vulkan_compute.h"
+#include "vulkan/compute.h"
+#include "vulkan/hostile_operands.h"
+#include "vulkan/probe.h"
 
 enum { BATCH = 1 << 20, BATCHES = 4, GROUP = 64 };
 

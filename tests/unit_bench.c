@@ -11,11 +11,11 @@
 
 #include <sys/stat.h>
 
-#include "bench_compare.h"
-#include "bench_error.h"
-#include "energy.h"
-#include "pareto.h"
-#include "statistics.h"
+#include "base/statistics.h"
+#include "bench/compare.h"
+#include "bench/energy.h"
+#include "bench/error.h"
+#include "bench/pareto.h"
 #include "test_folder.h"
 
 static void assert_near(double value, double expected, double tolerance)
@@ -96,7 +96,7 @@ static void errors_of_a_picture(void **state)
     for (int i = 0; i < 12; ++i)
         exact[i] = rgb[i] = 0.5F;
     const struct image image = {.width = 2, .height = 2, .rgb = rgb};
-    const struct bench_truth truth = {.grid = pixel_grid_fitting(2, 2, 4), .rgb = exact};
+    const struct ground_truth truth = {.grid = pixel_grid_fitting(2, 2, 4), .rgb = exact};
     struct bench_error error;
     assert_int_equal(bench_error_measure(&image, &truth, &error), STATUS_DONE);
     assert_true(error.max == 0 && error.rmse == 0 && error.rmse_uncertainty == 0 &&

@@ -10,11 +10,11 @@
 
 #include <cmocka.h>
 
-#include "camera_motion.h"
-#include "number.h"
-#include "pack.h"
-#include "scene_text.h"
-#include "vector.h"
+#include "base/number.h"
+#include "scene/pack.h"
+#include "scene/text.h"
+#include "scene/vector.h"
+#include "watch/camera_motion.h"
 
 static const double pi = 3.14159265358979323846;
 

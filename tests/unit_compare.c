@@ -11,7 +11,7 @@
 #include <math.h>
 #include <png.h>
 
-#include "compare.h"
+#include "check/compare.h"
 #include "test_folder.h"
 
 static float float_of(uint32_t bits)

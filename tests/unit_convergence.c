@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "statistics.h"
+#include "base/statistics.h"
 #include "test_render.h"
 
 enum { WIDTH = 30, HEIGHT = 20, VALUES = WIDTH * HEIGHT * 3, DRAWN = 64 };

@@ -9,9 +9,9 @@
 
 #include <sys/stat.h>
 
-#include "file_watch.h"
-#include "progress.h"
+#include "base/clock.h"
 #include "test_folder.h"
+#include "watch/file_watch.h"
 
 static const double patience_ms = 20000;
 static struct file_watch *watch;

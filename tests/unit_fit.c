@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "fit.h"
+#include "watch/fit.h"
 
 static void test_places(void **state)
 {

@@ -13,8 +13,8 @@
 #include <openexr.h>
 #include <png.h>
 
-#include "image_file.h"
-#include "srgb.h"
+#include "image/file.h"
+#include "image/srgb.h"
 #include "test_folder.h"
 
 static const char long_scene[] = "scenes/a folder with a name that goes on/and on/picture.yaml";

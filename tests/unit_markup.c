@@ -11,8 +11,8 @@
 #include <float.h>
 #include <math.h>
 
-#include "log_axis.h"
-#include "markup.h"
+#include "bench/log_axis.h"
+#include "bench/markup.h"
 
 #define SPACE "\xE2\x80\xAF" /* narrow, no-break */
 

@@ -13,8 +13,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "image_file.h"
-#include "output_file.h"
+#include "base/output_file.h"
+#include "image/file.h"
 #include "test_folder.h"
 
 static void put_file(const char *name, const char *text)

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-#include "scene_text.h"
+#include "scene/text.h"
 #include "test_folder.h"
 #include "test_render.h"
 
@@ -148,11 +148,11 @@ static void coincident_objects(void **state)
              "  - { name: F, type: sphere, center: [3, 0, 4], radius: 1, material: Matte }\n"
              "lights: []\n");
     assert_int_equal(packed.plane_count, 1);
-    assert_int_equal(packed.planes[0].surface.tags.y, 0);
+    assert_int_equal(packed.planes[0].surface.tags.FILE_ORDER, 0);
     assert_int_equal(packed.sphere_count, 3);
-    assert_int_equal(packed.spheres[0].surface.tags.y, 2);
-    assert_int_equal(packed.spheres[1].surface.tags.y, 4);
-    assert_int_equal(packed.spheres[2].surface.tags.y, 5);
+    assert_int_equal(packed.spheres[0].surface.tags.FILE_ORDER, 2);
+    assert_int_equal(packed.spheres[1].surface.tags.FILE_ORDER, 4);
+    assert_int_equal(packed.spheres[2].surface.tags.FILE_ORDER, 5);
     pack_destroy(&packed);
 }
 
@@ -173,9 +173,9 @@ static void lights_behind_planes(void **state)
     assert_int_equal(packed.point_light_count, 2);
     assert_true(packed.point_lights[0].intensity.x * 2 == packed.point_lights[1].intensity.x);
     assert_int_equal(packed.quad_light_count, 1);
-    assert_int_equal(packed.planes[0].surface.tags.z, 0);
-    assert_int_equal(packed.planes[1].surface.tags.z, 1); /* glass can always stand between */
-    assert_int_equal(packed.planes[2].surface.tags.z, 1);
+    assert_int_equal(packed.planes[0].surface.tags.CASTS_SHADOWS, 0);
+    assert_int_equal(packed.planes[1].surface.tags.CASTS_SHADOWS, 1); /* glass can always stand between */
+    assert_int_equal(packed.planes[2].surface.tags.CASTS_SHADOWS, 1);
     pack_destroy(&packed);
 }
 
@@ -191,7 +191,7 @@ static void lights_behind_planes_of_large_scenes(void **state)
              "  - { type: point, position: [0, 3, 3.4], color: [1, 1, 1], power: 1 }\n"
              "  - { type: quad, corner: [-1, 3, 3.4], u: [2, 0, 0], v: [0, 2, 0], power: 5 }\n");
     assert_int_equal(packed.point_light_count, 0);
-    assert_int_equal(packed.planes[0].surface.tags.z, 1);
+    assert_int_equal(packed.planes[0].surface.tags.CASTS_SHADOWS, 1);
     pack_destroy(&packed);
 }
 
@@ -219,8 +219,8 @@ static void hollow_spheres(void **state)
     } expected[] = {{0, 0}, {1, 0}, {0, 0}, {1, 0}, {0, 0}, {0, 1}, {0, 1}, {1, 0}, {0, 0}};
     assert_int_equal(packed.sphere_count, sizeof expected / sizeof *expected);
     for (int i = 0; i < packed.sphere_count; ++i) {
-        assert_int_equal(packed.spheres[i].surface.tags.z, expected[i].rays);
-        assert_int_equal(packed.spheres[i].surface.tags.w, expected[i].lights);
+        assert_int_equal(packed.spheres[i].surface.tags.HOLDS_RAYS, expected[i].rays);
+        assert_int_equal(packed.spheres[i].surface.tags.HOLDS_LIGHTS, expected[i].lights);
     }
     pack_destroy(&packed);
 }

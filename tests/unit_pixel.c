@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "event_fields.h"
+#include "pixel/fields.h"
 #include "test_render.h"
 
 enum { WIDTH = 60, HEIGHT = 40, PIXELS = 3 };

@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-#include "scene.h"
-#include "scene_text.h"
+#include "scene/scene.h"
+#include "scene/text.h"
 #include "scenes_bad.h"
 
 static char messages[1 << 16]; /* what the latest read printed to standard error */

@@ -11,9 +11,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "shader_compiler.h"
 #include "test_folder.h"
-#include "tracer.h"
+#include "tracer/tracer.h"
+#include "watch/shader_compiler.h"
 
 static struct shader_compiler *compiler;
 

@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#include "srgb.h"
+#include "image/srgb.h"
 
 static uint32_t bits_of(float value)
 {

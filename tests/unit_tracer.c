@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#include "compare.h"
+#include "check/compare.h"
 #include "test_render.h"
 
 enum { WIDTH = 333, HEIGHT = 217 };

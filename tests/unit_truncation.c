@@ -11,8 +11,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "scene/truncation.h"
 #include "test_render.h"
-#include "truncation.h"
 
 static const double max_errors[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 enum { MAX_ERRORS = sizeof max_errors / sizeof *max_errors, ALL_BOUNCES = 64 };

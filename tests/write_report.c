@@ -2,7 +2,7 @@
  * first scene. */
 #include <stdio.h>
 
-#include "report.h"
+#include "bench/report.h"
 
 int main(int argc, char **argv)
 {

@@ -48,10 +48,10 @@ static struct ray get_ray(const union word **next)
 static PackedSurface get_surface(const union word **next)
 {
     PackedSurface surface = {0};
-    surface.tags.x = (int)get_integer(next);
-    surface.tags.y = (int)get_integer(next);
-    surface.tags.z = (int)get_integer(next);
-    surface.tags.w = (int)get_integer(next);
+    surface.tags.SURFACE_KIND = (int)get_integer(next);
+    surface.tags.FILE_ORDER = (int)get_integer(next);
+    surface.tags.HOLDS_RAYS = (int)get_integer(next);
+    surface.tags.HOLDS_LIGHTS = (int)get_integer(next);
     return surface;
 }
 
@@ -75,7 +75,7 @@ static void put_hit(struct word_writer *outputs, bool met, const struct hit *hit
 {
     put_integer(outputs, "met", met);
     put_real(outputs, "distance", met ? hit->distance : 0);
-    put_integer(outputs, "leaving", met && hit->leaving);
+    put_integer(outputs, "from_inside", met && hit->from_inside);
 }
 
 static void put_hit_point(struct word_writer *outputs, bool met, const struct hit *hit)
@@ -113,10 +113,10 @@ static bool meet(const union word *inputs, int surface, struct hit *hit, struct 
     bool met;
     if (surface == 0) {
         small->sphere = get_sphere(&inputs);
-        met = meet_sphere(&small->sphere, 0, ray, &hit->distance, &hit->leaving);
+        met = meet_sphere(&small->sphere, 0, ray, &hit->distance, &hit->from_inside);
     } else {
         small->plane = get_plane(&inputs);
-        met = meet_plane(&small->plane, 1, ray, &hit->distance, &hit->leaving);
+        met = meet_plane(&small->plane, 1, ray, &hit->distance, &hit->from_inside);
     }
     return met && hit->distance < (real)FARTHEST_HIT;
 }
@@ -176,7 +176,7 @@ void call_nearest_hit(const union word *inputs, struct word_writer *outputs)
     struct hit hit;
     bool met = find_hit(&scene, &ray, &hit);
     put_integer(outputs, "surface", met ? (uint32_t)hit.surface : (uint32_t)NO_SURFACE);
-    put_integer(outputs, "rank", met ? (uint32_t)hit.material->tags.y : 0);
+    put_integer(outputs, "rank", met ? (uint32_t)hit.material->tags.FILE_ORDER : 0);
     put_hit(outputs, met, &hit);
     put_hit_point(outputs, met, &hit);
 }
@@ -250,10 +250,10 @@ static void get_matte(const union word **next, struct matte_words *words)
     words->ray.direction = get_vector(next);
     words->matte = (struct matte_point){&words->ray, &words->hit, get_real(next)};
     words->hit.surface = (int)get_integer(next);
-    words->hit.leaving = get_integer(next) != 0;
+    words->hit.from_inside = get_integer(next) != 0;
     words->hit.material = &words->material;
-    words->material.parameters.w = get_real(next);
-    words->material.oren_nayar_b.x = get_real(next);
+    words->material.parameters.OREN_NAYAR_A = get_real(next);
+    words->material.more_parameters.OREN_NAYAR_B = get_real(next);
 }
 
 void call_oren_nayar(const union word *inputs, struct word_writer *outputs)
@@ -262,8 +262,8 @@ void call_oren_nayar(const union word *inputs, struct word_writer *outputs)
     get_matte(&inputs, &words);
     struct vec3 to_light = get_vector(&inputs);
     put_real(outputs, "factor",
-             oren_nayar(words.material.parameters.w, words.material.oren_nayar_b.x, to_light,
-                        words.ray.direction, get_real(&inputs), words.matte.cos_out));
+             oren_nayar(words.material.parameters.OREN_NAYAR_A, words.material.more_parameters.OREN_NAYAR_B,
+                        to_light, words.ray.direction, get_real(&inputs), words.matte.cos_out));
 }
 
 void call_point_light(const union word *inputs, struct word_writer *outputs)

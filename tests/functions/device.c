@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "probe.h"
-#include "progress.h"
+#include "base/clock.h"
+#include "vulkan/probe.h"
 
 enum { VIEW, SCENE_BINDINGS = 5, INPUTS = SCENE_BINDINGS, OUTPUTS, BINDINGS };
 enum { GROUP = 64 }; /* invocations, as in functions.comp */

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #include "function_table.h"
-#include "vulkan_buffer.h"
+#include "vulkan/buffer.h"
 
 enum { BATCH = 1 << 16 }; /* cases a dispatch */
 

@@ -59,11 +59,11 @@ PackedSurface read_surface()
 {
     PackedSurface surface;
     surface.parameters = vec4(0);
-    surface.oren_nayar_b = vec4(0);
-    surface.tags.x = int(read_integer());
-    surface.tags.y = int(read_integer());
-    surface.tags.z = int(read_integer());
-    surface.tags.w = int(read_integer());
+    surface.more_parameters = vec4(0);
+    surface.tags.SURFACE_KIND = int(read_integer());
+    surface.tags.FILE_ORDER = int(read_integer());
+    surface.tags.HOLDS_RAYS = int(read_integer());
+    surface.tags.HOLDS_LIGHTS = int(read_integer());
     return surface;
 }
 

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
+#include "base/number.h"
 #include "device.h"
-#include "number.h"
-#include "progress.h"
 
 static const char usage[] = "usage: functions [OPTION]...\n"
                             "  --seed N      of the random cases (default 1)\n"

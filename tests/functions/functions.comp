@@ -58,13 +58,13 @@ Hit no_hit()
     Hit none;
     none.distance = FARTHEST_HIT;
     none.surface = -1;
-    none.leaving = false;
+    none.from_inside = false;
     none.shape = vec4(0);
     none.parameters = vec4(0);
     none.oren_nayar_b = 0.0;
     none.kind = KIND_MATTE;
-    none.rank = 0;
-    none.foot = vec3(0);
+    none.file_order = 0;
+    none.center_offset = vec3(0);
     none.half_chord = 0.0;
     return none;
 }
@@ -74,7 +74,7 @@ void write_hit(Hit hit)
     bool met = hit.surface >= 0;
     write_integer(uint(met));
     write_real(met ? hit.distance : 0.0);
-    write_integer(uint(met && hit.leaving));
+    write_integer(uint(met && hit.from_inside));
 }
 
 void write_hit_point(Ray ray, Hit hit)
@@ -134,7 +134,7 @@ void call_nearest_hit()
         hoisted_planes[i] = read_plane();
     Hit hit = nearest_hit(ray);
     write_integer(uint(hit.surface));
-    write_integer(uint(hit.rank));
+    write_integer(uint(hit.file_order));
     write_hit(hit);
     write_hit_point(ray, hit);
 }

@@ -129,8 +129,8 @@ void generate_oren_nayar(struct random *random, const struct promises *promises,
 static void tag(struct random *random, const struct promises *promises, struct PackedSphere *sphere)
 {
     if (!promises->never_entered) {
-        sphere->surface.tags.z = random_bool(random);
-        sphere->surface.tags.w = random_bool(random);
+        sphere->surface.tags.HOLDS_RAYS = random_bool(random);
+        sphere->surface.tags.HOLDS_LIGHTS = random_bool(random);
     }
 }
 

@@ -20,8 +20,9 @@ struct PackedPlane random_plane(struct random *random, const struct promises *pr
     float offset = random_below(random, 8) == 0 ? 0 : round_number(random_between(random, -1, 1));
     struct PackedPlane plane = {.normal_offset = {normal.x, normal.y, normal.z, offset}};
     if (!promises->opaque_planes && random_bool(random))
-        plane.surface.tags.x = KIND_TRANSPARENT;
-    plane.surface.tags.z = plane.surface.tags.x == KIND_TRANSPARENT || random_bool(random);
+        plane.surface.tags.SURFACE_KIND = KIND_TRANSPARENT;
+    plane.surface.tags.CASTS_SHADOWS =
+        plane.surface.tags.SURFACE_KIND == KIND_TRANSPARENT || random_bool(random);
     return plane;
 }
 
@@ -41,10 +42,10 @@ static void put_ray(struct word_writer *inputs, const struct ray *ray)
 
 static void put_surface(struct word_writer *inputs, const PackedSurface *surface)
 {
-    put_integer(inputs, "kind", (uint32_t)surface->tags.x);
-    put_integer(inputs, "rank", (uint32_t)surface->tags.y);
-    put_integer(inputs, "tag z", (uint32_t)surface->tags.z);
-    put_integer(inputs, "tag w", (uint32_t)surface->tags.w);
+    put_integer(inputs, "kind", (uint32_t)surface->tags.SURFACE_KIND);
+    put_integer(inputs, "rank", (uint32_t)surface->tags.FILE_ORDER);
+    put_integer(inputs, "tag z", (uint32_t)surface->tags.HOLDS_RAYS);
+    put_integer(inputs, "tag w", (uint32_t)surface->tags.HOLDS_LIGHTS);
 }
 
 void put_sphere(struct word_writer *inputs, const struct PackedSphere *sphere)
@@ -101,16 +102,16 @@ static struct ray ray_at_sphere(struct random *random, struct PackedSphere *sphe
     case 6: /* from inside */
     case 7:
         origin = dvec3_along(center, radius * random_between(random, 0, 1), normal);
-        sphere->surface.tags.z = 1;
+        sphere->surface.tags.HOLDS_RAYS = 1;
         break;
     case 8: /* from the centre */
         origin = center;
-        sphere->surface.tags.z = 1;
+        sphere->surface.tags.HOLDS_RAYS = 1;
         break;
     case 9: /* from a point on it that belongs to another surface */
         origin = on_sphere;
         ray.surface = 7;
-        sphere->surface.tags.z = random_bool(random);
+        sphere->surface.tags.HOLDS_RAYS = random_bool(random);
         break;
     case 10: /* along an axis, through the centre */
         direction = random_axis(random);
@@ -182,7 +183,7 @@ static struct ray ray_at_plane(struct random *random, const struct PackedPlane *
 static void keep_promises(const struct promises *promises, struct PackedSphere *sphere, struct ray *ray)
 {
     if (promises->never_entered) {
-        sphere->surface.tags.z = sphere->surface.tags.w = 0;
+        sphere->surface.tags.HOLDS_RAYS = sphere->surface.tags.HOLDS_LIGHTS = 0;
         ray->inward = false;
     }
 }
@@ -233,13 +234,13 @@ void generate_scene_ray(struct random *random, const struct promises *promises, 
     if (!promises->in_order)
         for (unsigned i = 3; i > 0; --i) {
             unsigned other = random_below(random, i + 1);
-            int rank = ranks[i];
+            int file_order = ranks[i];
             ranks[i] = ranks[other];
-            ranks[other] = rank;
+            ranks[other] = file_order;
         }
     for (int i = 0; i < 2; ++i) {
-        spheres[i].surface.tags.y = ranks[i];
-        planes[i].surface.tags.y = ranks[2 + i];
+        spheres[i].surface.tags.FILE_ORDER = ranks[i];
+        planes[i].surface.tags.FILE_ORDER = ranks[2 + i];
     }
     put_ray(inputs, &ray);
     put_sphere(inputs, &spheres[0]);

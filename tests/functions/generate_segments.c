@@ -45,7 +45,7 @@ void generate_sphere_segment(struct random *random, const struct promises *promi
         segment.inward = true;
         if (random_bool(random))
             to = inside;
-        sphere.surface.tags.w = 1;
+        sphere.surface.tags.HOLDS_LIGHTS = 1;
         break;
     case 2: /* leaves it and grazes */
         from = on_sphere;
@@ -61,21 +61,21 @@ void generate_sphere_segment(struct random *random, const struct promises *promi
     case 5: /* light on it */
         from = random_away(random, on_sphere, random_scale(random, 1e-3, 1));
         to = on_sphere;
-        sphere.surface.tags.w = random_bool(random);
+        sphere.surface.tags.HOLDS_LIGHTS = random_bool(random);
         break;
     case 6: /* light inside */
         to = inside;
-        sphere.surface.tags.w = 1;
+        sphere.surface.tags.HOLDS_LIGHTS = 1;
         break;
     case 7: /* point inside */
         from = inside;
-        sphere.surface.tags.z = 1;
-        sphere.surface.tags.w = random_bool(random);
+        sphere.surface.tags.HOLDS_RAYS = 1;
+        sphere.surface.tags.HOLDS_LIGHTS = random_bool(random);
         break;
     case 8: /* both inside */
         from = inside;
         to = dvec3_along(center, radius * random_between(random, 0, 1), normal);
-        sphere.surface.tags.z = sphere.surface.tags.w = 1;
+        sphere.surface.tags.HOLDS_RAYS = sphere.surface.tags.HOLDS_LIGHTS = 1;
         break;
     case 9: /* light about as far as the closest approach, which is in the sphere or beside it */
         to = dvec3_along(center, radius * random_between(random, 0, 1.1), normal);
@@ -84,7 +84,7 @@ void generate_sphere_segment(struct random *random, const struct promises *promi
     case 10: /* from a point on it that belongs to another surface */
         from = on_sphere;
         segment.surface = 5;
-        sphere.surface.tags.z = random_bool(random);
+        sphere.surface.tags.HOLDS_RAYS = random_bool(random);
         break;
     case 11: /* ends before it */
         to = dvec3_along(center, radius * random_between(random, 1, 1.01), normal);
@@ -95,7 +95,7 @@ void generate_sphere_segment(struct random *random, const struct promises *promi
         to = dvec3_along(from, random_between(random, 0.5, 3), dvec3_subtract(to, from));
     }
     if (promises->never_entered) {
-        sphere.surface.tags.z = sphere.surface.tags.w = 0;
+        sphere.surface.tags.HOLDS_RAYS = sphere.surface.tags.HOLDS_LIGHTS = 0;
         segment.inward = false;
     }
     segment.from = round_vector(from);

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "real.h"
-#include "vector.h"
+#include "scene/vector.h"
 
 /* Random numbers of one case: SplitMix64 (Steele, Lea and Flood, OOPSLA 2014), started anew for every case,
  * so that a case can be had alone. No two of these calls stand in one argument list or initialiser, whose

@@ -75,7 +75,7 @@ static void leave_sphere(const struct packed_scene *scene, struct hit hit, struc
     struct vec3 center = vector_of(sphere->center_radius);
     for (int bounce = 0; bounce < 4; ++bounce) {
         errors->point = fmax(errors->point, off_sphere(sphere, hit.point));
-        struct vec3 outward_normal = hit.leaving ? negate(hit.normal) : hit.normal;
+        struct vec3 outward_normal = hit.from_inside ? negate(hit.normal) : hit.normal;
         struct ray outward = leave(&hit, random, false, outward_normal);
         struct hit next;
         assert_false(find_hit(scene, &outward, &next));
@@ -83,7 +83,7 @@ static void leave_sphere(const struct packed_scene *scene, struct hit hit, struc
 
         struct ray inward = leave(&hit, random, true, outward_normal);
         assert_true(find_hit(scene, &inward, &next));
-        assert_true(next.leaving && next.distance >= 0 && next.surface == 0);
+        assert_true(next.from_inside && next.distance >= 0 && next.surface == 0);
         struct dvec3 to_center = dvec3_subtract(widen(center), widen(inward.origin));
         double chord = fmax(0, 2 * dvec3_dot(to_center, widen(inward.direction)));
         errors->distance = fmax(errors->distance, fabs((double)next.distance - chord) /
@@ -103,12 +103,12 @@ static void test_spheres(void **state)
         struct vec3 center = round_vector(random_point(&random));
         double radius = random_scale(&random, 1e-4, 1e4);
         struct PackedSphere sphere = {.center_radius = {center.x, center.y, center.z, (float)radius}};
-        sphere.surface.tags.x = KIND_TRANSPARENT;
+        sphere.surface.tags.SURFACE_KIND = KIND_TRANSPARENT;
         struct dvec3 aim = random_away(&random, widen(center), radius * random_between(&random, 0, 1));
         struct dvec3 origin = random_away(&random, widen(center), radius * random_scale(&random, 1.001, 1e3));
         if (random_below(&random, 8) == 0) { /* the camera is inside */
             origin = random_away(&random, widen(center), radius * random_between(&random, 0, 0.999));
-            sphere.surface.tags.z = 1;
+            sphere.surface.tags.HOLDS_RAYS = 1;
         }
         struct ray ray = {.origin = round_vector(origin),
                           .direction = round_vector(dvec3_unit(dvec3_subtract(aim, origin))),
@@ -140,8 +140,8 @@ static void test_planes(void **state)
         struct PackedPlane plane = {
             .normal_offset = {normal.x, normal.y, normal.z, (float)random_between(&random, -1, 1)}};
         bool transparent = random_bool(&random);
-        plane.surface.tags.x = transparent ? KIND_TRANSPARENT : KIND_MIRROR;
-        plane.surface.tags.z = 1;
+        plane.surface.tags.SURFACE_KIND = transparent ? KIND_TRANSPARENT : KIND_MIRROR;
+        plane.surface.tags.CASTS_SHADOWS = 1;
         struct ray ray = {.origin = round_vector(random_point(&random)), .surface = NO_SURFACE};
         ray.direction = round_vector(random_direction(&random));
         const struct packed_scene scene = {.plane_count = 1, .planes = &plane};
@@ -153,10 +153,10 @@ static void test_planes(void **state)
         double off = dvec3_dot(widen(normal), widen(hit.point)) - (double)plane.normal_offset.w;
         worst = fmax(worst, fabs(off) / (half_ulp * (1 + size_of(hit.point))));
         for (int side = 0; side < (transparent ? 2 : 1); ++side) {
-            struct ray leaving = leave(&hit, &random, side == 1, hit.normal);
-            assert_false(find_hit(&scene, &leaving, &next));
+            struct ray departing = leave(&hit, &random, side == 1, hit.normal);
+            assert_false(find_hit(&scene, &departing, &next));
             if (transparent)
-                assert_not_shadowed(&scene, &leaving);
+                assert_not_shadowed(&scene, &departing);
         }
     }
     print_message("%ld hits: points within %.2f half ulps of 1 + |point|\n", met, worst);

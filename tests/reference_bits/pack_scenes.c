@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pack.h"
+#include "scene/pack.h"
 #include "scene_bytes.h"
 
 static bool write_all(FILE *file, const void *items, size_t size, int count)

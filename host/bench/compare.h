@@ -1,0 +1,32 @@
+#ifndef VKWHITTED_BENCH_COMPARE_H
+#define VKWHITTED_BENCH_COMPARE_H
+
+#include <jansson.h>
+#include <stdio.h>
+
+#include "base/status.h"
+
+/* Reads an earlier bench's JSON file; STATUS_REFUSED (reported) if it is not one. The caller frees *document.
+ */
+enum status bench_document_read(const char *path, json_t **document);
+
+/* Prints what differs between two bench documents beyond noise, setting by setting: faster, slower, more or
+ * less accurate. STATUS_DIFFERS if anything became slower or less accurate, STATUS_REFUSED (reported) if the
+ * documents have no setting in common.
+ *
+ * Times differ beyond noise if the medians differ by more than 5 % and by more than four standard errors
+ * of their difference: with a standard error of 1.2533 s / sqrt(n) for a median of n runs, s = the distance
+ * of the quartiles / 1.349, and with that distance, relative to the median, at least the bench's typical one.
+ * Four: with a hundred settings, one bench in a hundred and fifty is wrong where noise is normal. The machine
+ * as a whole may have become slower or faster between the two benches, which neither tells by itself. So the
+ * change must be as far beyond noise in proportion to the other backend's median change, device and CPU
+ * serving as each other's control; the variance of that median counts as noise, too. Times of another machine
+ * or device are not compared.
+ *
+ * Errors have no noise, for pictures are functions of the scene: any rise of RMSE or of the largest error
+ * counts, but in pictures of scenes with sampled lights and of several pixel samples, where another choice of
+ * points is as good: there RMSE must rise by more than four standard errors. Errors against another truth, as
+ * for another size, are not compared. */
+enum status bench_compare(const json_t *old, const json_t *new, FILE *stream);
+
+#endif

@@ -1,0 +1,32 @@
+#ifndef VKWHITTED_IMAGE_FORMATS_H
+#define VKWHITTED_IMAGE_FORMATS_H
+
+#include <stdint.h>
+
+#include "image/file.h"
+
+/* The writers behind image_write(), one for each format; each reports its failures. */
+enum status image_write_png(const struct image *image, const char *path,
+                            const struct image_metadata *metadata);
+enum status image_write_exr(const struct image *image, const char *path,
+                            const struct image_metadata *metadata);
+enum status image_write_pfm(const struct image *image, const char *path,
+                            const struct image_metadata *metadata);
+
+struct png_text {
+    const char *key, *text; /* Latin-1 letters only; UTF-8. A NULL text is left out. */
+};
+
+/* An 8-bit RGB picture that is made row by row. */
+struct png_source {
+    unsigned width, height;
+    enum transfer transfer; /* of the code values, for the file to say */
+    const struct png_text *texts;
+    int text_count;
+    void (*encode_row)(const void *context, unsigned y, uint8_t *rgb); /* 3 * width bytes */
+    const void *context;
+};
+
+enum status png_write(const struct png_source *source, const char *path);
+
+#endif

@@ -1,0 +1,57 @@
+#include "image/image.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+/* Bytes of memory the machine has, or infinity where it does not say. */
+static double physical_memory_bytes(void)
+{
+    long pages = sysconf(_SC_PHYS_PAGES);
+    long page_bytes = sysconf(_SC_PAGESIZE);
+    if (pages <= 0 || page_bytes <= 0)
+        return (double)SIZE_MAX;
+    return (double)pages * (double)page_bytes;
+}
+
+enum status image_create(unsigned width, unsigned height, struct image *image)
+{
+    *image = (struct image){0};
+
+    const double gibibyte = 1024.0 * 1024.0 * 1024.0;
+    double wanted_bytes = (double)width * (double)height * 3.0 * (double)sizeof(float);
+    double memory_bytes = physical_memory_bytes();
+    if (wanted_bytes > memory_bytes || wanted_bytes > (double)(SIZE_MAX / 2)) {
+        log_error(
+            "a picture of %ux%u pixels takes %.0f bytes (%.1f GiB) of memory, this machine has %.1f GiB",
+            width, height, wanted_bytes, wanted_bytes / gibibyte, memory_bytes / gibibyte);
+        return STATUS_UNABLE;
+    }
+
+    /* calloc, so that pages nobody draws on are never touched. */
+    size_t channel_count = (size_t)width * height * 3;
+    float *rgb = calloc(channel_count > 0 ? channel_count : 1, sizeof(float));
+    if (!rgb) {
+        log_error("no memory for a picture of %ux%u pixels: %.0f bytes wanted", width, height, wanted_bytes);
+        return STATUS_UNABLE;
+    }
+    *image = (struct image){.width = width, .height = height, .rgb = rgb};
+    return STATUS_DONE;
+}
+
+enum status image_widen(struct image *image)
+{
+    image->rgb64 = calloc((size_t)image->width * image->height * 3 + 1, sizeof *image->rgb64);
+    if (image->rgb64)
+        return STATUS_DONE;
+    log_error("no memory for a picture of %ux%u pixels in double precision", image->width, image->height);
+    return STATUS_UNABLE;
+}
+
+void image_destroy(struct image *image)
+{
+    free(image->rgb);
+    free(image->rgb64);
+    free(image->truncation);
+    *image = (struct image){0};
+}

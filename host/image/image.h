@@ -1,0 +1,24 @@
+#ifndef VKWHITTED_IMAGE_IMAGE_H
+#define VKWHITTED_IMAGE_IMAGE_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+
+/* Linear RGB radiance, row 0 on top, pixel (x, y) channel c at rgb[(y * width + x) * 3 + c]. */
+struct image {
+    unsigned width, height;
+    float *rgb;
+    double *rgb64; /* the same before rounding to float, where that is wanted; otherwise NULL */
+    float
+        *truncation; /* how far a pixel is from the picture with all bounces at most, where wanted; or NULL */
+};
+
+/* A black image; STATUS_UNABLE (reported) if the machine's memory cannot hold it. */
+enum status image_create(unsigned width, unsigned height, struct image *image);
+
+/* Gives a black image room for double precision; STATUS_UNABLE (reported) without memory. */
+enum status image_widen(struct image *image);
+void image_destroy(struct image *image);
+
+#endif

@@ -1,0 +1,177 @@
+#include <png.h>
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+#include "base/output_file.h"
+#include "image/formats.h"
+#include "image/srgb.h"
+
+enum { MAX_TEXTS = 8 };
+
+struct png_output {
+    struct output_file file;
+    const struct png_source *source;
+    png_structp png;
+    png_infop info;
+    uint8_t *row;
+    bool write_failed; /* output_file_commit() reports it */
+};
+
+static void on_error(png_structp png, png_const_charp message)
+{
+    const struct png_output *output = png_get_error_ptr(png);
+    if (!output->write_failed)
+        log_error("%s: cannot write PNG: %s", output->file.path, message);
+    png_longjmp(png, 1);
+}
+
+static void on_warning(png_structp png, png_const_charp message)
+{
+    const struct png_output *output = png_get_error_ptr(png);
+    log_warning("%s: PNG: %s", output->file.path, message);
+}
+
+static void on_write(png_structp png, png_bytep bytes, size_t size)
+{
+    struct png_output *output = png_get_io_ptr(png);
+    if (!output_file_write(&output->file, bytes, size)) {
+        output->write_failed = true;
+        png_error(png, "write failed");
+    }
+}
+
+static void on_flush(png_structp png)
+{
+    (void)png;
+}
+
+static bool is_ascii(const char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text >= 0x80)
+            return false;
+    return true;
+}
+
+/* tEXt is Latin-1: what is not ASCII goes into iTXt, which is UTF-8. */
+static void put_texts(struct png_output *output)
+{
+    png_text texts[MAX_TEXTS];
+    int count = 0;
+    for (int i = 0; i < output->source->text_count && count < MAX_TEXTS; i++) {
+        const struct png_text *given = &output->source->texts[i];
+        if (!given->text)
+            continue;
+        texts[count++] = (png_text){
+            .compression = is_ascii(given->text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE,
+            .key = (char *)(uintptr_t)given->key,
+            .text = (char *)(uintptr_t)given->text,
+        };
+    }
+    png_set_text(output->png, output->info, texts, count);
+}
+
+/* Z_RLE looks for runs only and leaves the rest to Huffman coding; after the Paeth filter that is as small as
+ * zlib's level 3 on smooth pictures, smaller than level 6 on noisy ones, and several times faster. */
+static void put_header(struct png_output *output)
+{
+    const struct png_source *source = output->source;
+    png_structp png = output->png;
+    png_set_IHDR(png, output->info, source->width, source->height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (source->transfer == TRANSFER_SRGB)
+        png_set_sRGB_gAMA_and_cHRM(png, output->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    else
+        png_set_gAMA_fixed(png, output->info, PNG_GAMMA_LINEAR);
+    put_texts(output);
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
+    png_set_compression_strategy(png, Z_RLE);
+    png_set_compression_level(png, 1);
+    png_set_compression_buffer_size(png, 65536);
+    png_write_info(png, output->info);
+}
+
+static bool encode(struct png_output *output)
+{
+    if (setjmp(png_jmpbuf(output->png)))
+        return false;
+    put_header(output);
+    for (unsigned y = 0; y < output->source->height; y++) {
+        output->source->encode_row(output->source->context, y, output->row);
+        png_write_row(output->png, output->row);
+    }
+    png_write_end(output->png, NULL);
+    return true;
+}
+
+static bool start(struct png_output *output)
+{
+    output->row = malloc((size_t)output->source->width * 3);
+    output->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, output, on_error, on_warning);
+    output->info = output->png ? png_create_info_struct(output->png) : NULL;
+    if (!output->row || !output->info) {
+        log_error("%s: no memory to write PNG", output->file.path);
+        return false;
+    }
+    png_set_write_fn(output->png, output, on_write, on_flush);
+    return true;
+}
+
+enum status png_write(const struct png_source *source, const char *path)
+{
+    struct png_output output = {.source = source};
+    enum status status = output_file_open(path, &output.file);
+    if (status != STATUS_DONE)
+        return status;
+
+    bool encoded = start(&output) && encode(&output);
+    png_destroy_write_struct(&output.png, &output.info);
+    free(output.row);
+    if (encoded || output.write_failed)
+        return output_file_commit(&output.file);
+    output_file_abandon(&output.file);
+    return STATUS_UNABLE;
+}
+
+struct picture {
+    const struct image *image;
+    enum transfer transfer;
+    struct srgb_encoder encoder;
+};
+
+static void encode_picture_row(const void *context, unsigned y, uint8_t *rgb)
+{
+    const struct picture *picture = context;
+    size_t channels = (size_t)picture->image->width * 3;
+    const float *row = picture->image->rgb + y * channels;
+    if (picture->transfer == TRANSFER_SRGB)
+        srgb_encode(&picture->encoder, row, channels, rgb);
+    else
+        linear_encode(row, channels, rgb);
+}
+
+enum status image_write_png(const struct image *image, const char *path,
+                            const struct image_metadata *metadata)
+{
+    struct picture picture = {.image = image, .transfer = metadata->transfer};
+    srgb_encoder_init(&picture.encoder);
+    char max_bounces[16];
+    snprintf(max_bounces, sizeof max_bounces, "%u", metadata->max_bounces);
+    const struct png_text texts[] = {
+        {"Software", "vkwhitted"},          {"scene", metadata->scene},  {"device", metadata->device},
+        {"precision", metadata->precision}, {"maxBounces", max_bounces},
+    };
+    const struct png_source source = {
+        .width = image->width,
+        .height = image->height,
+        .transfer = metadata->transfer,
+        .texts = texts,
+        .text_count = (int)(sizeof texts / sizeof texts[0]),
+        .encode_row = encode_picture_row,
+        .context = &picture,
+    };
+    return png_write(&source, path);
+}

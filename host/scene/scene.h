@@ -1,0 +1,92 @@
+#ifndef VKWHITTED_SCENE_SCENE_H
+#define VKWHITTED_SCENE_SCENE_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+
+/* A scene as the user wrote it: lengths in metres, angles in degrees except roughness (radians),
+ * linear RGB. Everything here has passed the checks of scene_read(): finite, in range, consistent. */
+
+/* Where in the file something is written; both from 1. */
+struct scene_place {
+    int line, column;
+};
+
+enum material_type { MATERIAL_MATTE, MATERIAL_MIRROR, MATERIAL_TRANSPARENT };
+
+struct scene_material {
+    char *name;
+    enum material_type type;
+    double color[3];  /* matte */
+    double roughness; /* matte: Oren-Nayar's sigma, radians */
+    double ior;       /* transparent: index of refraction against vacuum */
+};
+
+enum object_type { OBJECT_SPHERE, OBJECT_PLANE };
+
+struct scene_object {
+    char *name;
+    enum object_type type;
+    size_t material; /* index into scene.materials */
+    union {
+        struct {
+            double center[3], radius;
+        } sphere;
+        struct {
+            double point[3], normal[3]; /* normal of any length but 0 */
+        } plane;
+    };
+    struct scene_place place;
+};
+
+enum light_type { LIGHT_POINT, LIGHT_QUAD };
+
+struct scene_light {
+    enum light_type type;
+    double color[3];
+    double power;
+    union {
+        struct {
+            double position[3];
+        } point;
+        struct {
+            double corner[3], u[3], v[3];
+        } quad;
+    };
+    struct scene_place place;
+};
+
+struct scene_camera {
+    double position[3], look_at[3], up[3];
+    double fov_y_degrees; /* vertical, in (0, 180) */
+};
+
+struct scene {
+    char *path; /* as given, for messages */
+    struct scene_camera camera;
+    unsigned width, height; /* pixels */
+    double background[3];
+    unsigned max_bounces, light_samples;
+    size_t material_count, object_count, light_count;
+    struct scene_material *materials;
+    struct scene_object *objects;
+    struct scene_light *lights;
+};
+
+enum {
+    SCENE_MAX_SIZE = 65536, /* pixels a side */
+    SCENE_MAX_BOUNCES = 1000,
+    SCENE_MAX_SAMPLES = 65536, /* light samples a point, and samples a pixel */
+};
+
+/* Reads and checks the YAML scene file at path. On STATUS_DONE the caller owns *scene and frees it
+ * with scene_destroy(). Otherwise *scene is empty, and everything wrong that could be found has been
+ * reported on standard error as "path:line:column: error: ..." with the line and a caret:
+ * STATUS_REFUSED for a file that is not a scene, STATUS_UNABLE where there is no memory. */
+enum status scene_read(const char *path, struct scene *scene);
+
+/* Frees what the scene owns and empties it. An empty scene is fine. */
+void scene_destroy(struct scene *scene);
+
+#endif

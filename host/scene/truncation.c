@@ -1,0 +1,182 @@
+#include "scene/truncation.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "scene/vector.h"
+
+/* More than a light of this scene can give, should no better bound be found. */
+static const float unbounded = 0x1p100f;
+
+/* Added to the bound, so that no charge underflows. */
+static const float darkest = 0x1p-30f;
+
+/* Where float puts a point of a surface, off by less than this, in scene units. */
+static const double resolution = 0x1p-20;
+
+/* Stands for all relative rounding errors on the way of a ray: 6 bits more than a bounce loses, as products
+ * of weights lose that much in 1000 bounces. */
+static const double slack = 0x1p-10;
+
+static struct dvec3 quad_corner(const struct PackedQuadLight *quad, int corner)
+{
+    struct dvec3 along_u = dvec3_scale(corner & 1, dvec3_of_vec4(quad->edge_u));
+    struct dvec3 along_v = dvec3_scale(corner >> 1, dvec3_of_vec4(quad->edge_v));
+    return dvec3_add(dvec3_of_vec4(quad->corner), dvec3_add(along_u, along_v));
+}
+
+/* A matte sphere or, if that is NULL, plane. */
+struct body {
+    const struct PackedSphere *sphere;
+    const struct PackedPlane *plane;
+};
+
+/* Signed: positive outside the sphere and on the side of the plane's normal. */
+static double distance_from(struct body body, struct dvec3 point)
+{
+    if (!body.sphere)
+        return dvec3_dot(dvec3_of_vec4(body.plane->normal_offset), point) -
+               (double)body.plane->normal_offset.w;
+    layout_vec4 sphere = body.sphere->center_radius;
+    return dvec3_length(dvec3_subtract(point, dvec3_of_vec4(sphere))) - (double)sphere.w;
+}
+
+static double distance_from_segment(struct dvec3 from, struct dvec3 edge, struct dvec3 point)
+{
+    double along = dvec3_dot(dvec3_subtract(point, from), edge) / dvec3_dot(edge, edge);
+    struct dvec3 nearest = dvec3_add(from, dvec3_scale(fmin(1, fmax(0, along)), edge));
+    return dvec3_length(dvec3_subtract(point, nearest));
+}
+
+static double distance_from_quad(const struct PackedQuadLight *quad, struct dvec3 point)
+{
+    struct dvec3 u = dvec3_of_vec4(quad->edge_u), v = dvec3_of_vec4(quad->edge_v), normal = dvec3_cross(u, v);
+    struct dvec3 way = dvec3_subtract(point, quad_corner(quad, 0));
+    double area_squared = dvec3_dot(normal, normal);
+    double at_u = dvec3_dot(dvec3_cross(way, v), normal) / area_squared;
+    double at_v = dvec3_dot(dvec3_cross(u, way), normal) / area_squared;
+    if (at_u >= 0 && at_u <= 1 && at_v >= 0 && at_v <= 1)
+        return fabs(dvec3_dot(way, normal)) / sqrt(area_squared);
+    double to_u_edges = fmin(distance_from_segment(quad_corner(quad, 0), u, point),
+                             distance_from_segment(quad_corner(quad, 2), u, point));
+    double to_v_edges = fmin(distance_from_segment(quad_corner(quad, 0), v, point),
+                             distance_from_segment(quad_corner(quad, 1), v, point));
+    return fmin(to_u_edges, to_v_edges);
+}
+
+/* Between the body's surface and the quad; 0 where they meet. */
+static double quad_distance(struct body body, const struct PackedQuadLight *quad)
+{
+    double nearest = INFINITY, farthest = -INFINITY;
+    for (int i = 0; i < 4; ++i) {
+        double distance = distance_from(body, quad_corner(quad, i));
+        nearest = fmin(nearest, distance);
+        farthest = fmax(farthest, distance);
+    }
+    if (body.sphere) /* all corners in it: the quad is; but corners outside tell little */
+        nearest = distance_from_quad(quad, dvec3_of_vec4(body.sphere->center_radius)) -
+                  (double)body.sphere->center_radius.w;
+    return fmax(0, fmax(nearest, -farthest));
+}
+
+static double inverse_square(double distance)
+{
+    double least = distance * (1 - slack) - resolution;
+    return least > 0 ? 1 / (least * least) : INFINITY;
+}
+
+/* The body's largest radiance. Oren-Nayar's A cos_in + B cos_in s / max(cos_in, cos_out), where s is at most
+ * sin_in, is at most A cos_in + B sin_in. */
+static double matte_radiance(const struct packed_scene *scene, struct body body)
+{
+    const PackedSurface *surface = body.sphere ? &body.sphere->surface : &body.plane->surface;
+    if (surface->tags.SURFACE_KIND != KIND_MATTE)
+        return 0;
+    struct dvec3 irradiance = {0, 0, 0};
+    for (int i = 0; i < scene->point_light_count; ++i) {
+        const struct PackedPointLight *light = &scene->point_lights[i];
+        double falloff = inverse_square(fabs(distance_from(body, dvec3_of_vec4(light->position))));
+        irradiance = dvec3_add(irradiance, dvec3_scale(falloff, dvec3_of_vec4(light->intensity)));
+    }
+    for (int i = 0; i < scene->quad_light_count; ++i) {
+        const struct PackedQuadLight *light = &scene->quad_lights[i];
+        double area = dvec3_length(dvec3_of_vec4(light->area_normal)) * scene->light_samples;
+        double falloff = inverse_square(quad_distance(body, light));
+        irradiance = dvec3_add(irradiance, dvec3_scale(area * falloff, dvec3_of_vec4(light->radiance)));
+    }
+    struct dvec3 albedo = dvec3_of_vec4(surface->parameters);
+    double largest = fmax(albedo.x * irradiance.x, fmax(albedo.y * irradiance.y, albedo.z * irradiance.z));
+    if (!isfinite(largest)) /* also 0 times INFINITY */
+        return INFINITY;
+    return largest *
+           hypot((double)surface->parameters.OREN_NAYAR_A, (double)surface->more_parameters.OREN_NAYAR_B);
+}
+
+double truncation_radiance(const struct packed_scene *scene)
+{
+    double radiance = dvec3_largest(dvec3_of_vec4(scene->view.background));
+    for (int i = 0; i < scene->sphere_count; ++i)
+        radiance = fmax(radiance, matte_radiance(scene, (struct body){.sphere = &scene->spheres[i]}));
+    for (int i = 0; i < scene->plane_count; ++i)
+        radiance = fmax(radiance, matte_radiance(scene, (struct body){.plane = &scene->planes[i]}));
+    return radiance * (1 + slack);
+}
+
+/* What two pictures that trace some of the same rays may differ by through rounding alone: each sample's sum,
+ * exact but for its last rounding and for 2^-48 (rays)^2, up to 4000 rays, the sum over the samples, and the
+ * division. */
+static double rounding(const struct packed_scene *scene, double radiance)
+{
+    double roundings = scene->samples > 1 ? 2.0 * scene->samples + 5 : 3;
+    return roundings * 0x1p-24 * radiance;
+}
+
+/* The normal of two parallel mirrors that face each other, with w = 1, if every other plane is matte and
+ * stands across them; otherwise 0. */
+static layout_vec4 between_mirrors(const struct packed_scene *scene)
+{
+    const layout_vec4 none = {0, 0, 0, 0};
+    layout_vec4 normal = none;
+    bool faced = false;
+    for (int i = 0; i < scene->plane_count; ++i) {
+        layout_vec4 other = scene->planes[i].normal_offset;
+        if (scene->planes[i].surface.tags.SURFACE_KIND != KIND_MIRROR)
+            continue;
+        if (normal.w == 0)
+            normal = (layout_vec4){other.x, other.y, other.z, 1};
+        bool parallel = other.x == normal.x && other.y == normal.y && other.z == normal.z;
+        bool faces = other.x == -normal.x && other.y == -normal.y && other.z == -normal.z;
+        if (!parallel && !faces)
+            return none;
+        faced |= faces;
+    }
+    for (int i = 0; i < scene->plane_count; ++i)
+        if (scene->planes[i].surface.tags.SURFACE_KIND == KIND_TRANSPARENT ||
+            (scene->planes[i].surface.tags.SURFACE_KIND == KIND_MATTE &&
+             fabs(dvec3_dot(dvec3_of_vec4(normal), dvec3_of_vec4(scene->planes[i].normal_offset))) >
+                 resolution))
+            return none;
+    return faced ? normal : none;
+}
+
+void truncation_pack(struct packed_scene *scene, double max_error)
+{
+    double radiance = truncation_radiance(scene);
+    double allowance = max_error * (1 - slack) - rounding(scene, radiance);
+    if (max_error >= 0)
+        scene->view.between_mirrors = between_mirrors(scene);
+    scene->view.truncation = (layout_vec4){
+        .x = radiance < (double)unbounded ? (float)(radiance * (1 + slack)) + darkest : unbounded,
+        .y = allowance > 0 && radiance < (double)unbounded ? (float)allowance : -1,
+    };
+}
+
+double truncation_bound(const struct packed_scene *scene, double charges)
+{
+    if (!(charges > 0))
+        return 0;
+    if (scene->view.truncation.RADIANCE_BOUND == unbounded)
+        return INFINITY;
+    return charges / scene->samples * (1 + slack) +
+           rounding(scene, (double)scene->view.truncation.RADIANCE_BOUND);
+}

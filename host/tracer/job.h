@@ -1,0 +1,46 @@
+#ifndef VKWHITTED_TRACER_JOB_H
+#define VKWHITTED_TRACER_JOB_H
+
+#include "image/file.h"
+#include "scene/pack.h"
+#include "tracer/render.h"
+
+/* What is asked of a picture beyond what its scene file says. */
+struct job_options {
+    unsigned width, height; /* 0: the scene's */
+    int max_bounces;        /* -1: the scene's */
+    unsigned samples;       /* a pixel */
+    unsigned light_samples; /* 0: the scene's */
+    bool has_max_error;
+    double max_error; /* linear radiance */
+    bool has_crop;
+    struct window crop;
+    enum precision precision;
+    bool fast;
+    unsigned threads; /* 0: all */
+    unsigned repeat;  /* warm renderings after the first */
+    bool count_rays;
+    bool quiet;
+};
+
+/* A scene file made ready to render. */
+struct job {
+    struct scene scene;
+    struct packed_scene packed;
+    struct render_plan plan;
+    unsigned max_bounces;
+};
+
+/* Reads and packs the scene. On failure (reported) the job is empty; otherwise the caller frees it. */
+enum status job_create(const struct job_options *options, const char *scene_path, struct job *job);
+
+/* The same for a scene that has been read: the job takes it over, and *scene is empty then. */
+enum status job_create_from(const struct job_options *options, struct scene *scene, struct job *job);
+void job_destroy(struct job *job);
+
+/* Writes the picture of the job, rendered on the device of that name, to each of the files, each whole or not
+ * at all. */
+enum status job_write(const struct job *job, const struct image *image, const char *const *paths,
+                      size_t path_count, enum transfer transfer, const char *device);
+
+#endif

@@ -1,0 +1,56 @@
+#ifndef VKWHITTED_TRACER_RENDER_H
+#define VKWHITTED_TRACER_RENDER_H
+
+#include "image/image.h"
+#include "packed_scene.h"
+#include "reference.h"
+#include "tracer/tracer.h"
+
+enum backend { BACKEND_VULKAN, BACKEND_CPU };
+enum precision { PRECISION_FLOAT, PRECISION_DOUBLE, PRECISION_QUAD };
+
+const char *precision_name(enum precision precision);
+
+/* What to render and how. */
+struct render_plan {
+    const struct packed_scene *scene;
+    struct window window;
+    enum precision precision; /* quad only on the CPU */
+    unsigned threads;         /* of the CPU; 0: one a processor */
+    bool fast;                /* on a device */
+    unsigned repeat;          /* warm renderings after the first */
+    bool count_rays;
+    bool bound_truncation; /* fill the image's truncation */
+    bool quiet;
+};
+
+struct rendering {
+    struct image image; /* the window */
+    double setup_ms;    /* pipeline and upload; 0 on the CPU */
+    double first_dispatch_ms;
+    double dispatch_ms;         /* median of the warm renderings, or the first if there are none */
+    struct reference_rays rays; /* all 0 unless counted */
+};
+
+/* On STATUS_DONE the caller frees rendering->image; otherwise there is none and the reason is reported,
+ * except for STATUS_INTERRUPTED. */
+enum status render_on_device(struct vulkan_context *context, const struct render_plan *plan,
+                             struct rendering *rendering);
+enum status render_on_cpu(const struct render_plan *plan, struct rendering *rendering);
+
+/* Adds the rays that the device traces for one picture. */
+enum status rays_on_device(struct vulkan_context *context, const struct render_plan *plan,
+                           struct reference_rays *rays);
+
+/* The path signatures of the window's pixels in float: the hash of every decision of the ray tree. The caller
+ * frees them; NULL with any status but STATUS_DONE. */
+enum status signatures_on_device(struct vulkan_context *context, const struct render_plan *plan,
+                                 uint32_t **signatures);
+enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatures);
+
+/* The exact picture with the error analysis of the float one (precision: double or quad), to be freed by the
+ * caller. */
+enum status explain_on_cpu(const struct render_plan *plan, enum precision precision,
+                           struct reference_explanation **explanations);
+
+#endif

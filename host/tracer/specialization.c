@@ -1,0 +1,64 @@
+#include "tracer/specialization.h"
+
+static void note_surface(struct specialization *constants, const struct packed_scene *scene,
+                         const PackedSurface *surface)
+{
+    if (surface->tags.SURFACE_KIND == KIND_MATTE &&
+        (surface->parameters.OREN_NAYAR_A != scene->view.matte.SHARED_A ||
+         surface->more_parameters.OREN_NAYAR_B != scene->view.matte.SHARED_B))
+        constants->one_roughness = VK_FALSE;
+    constants->mirrors |= surface->tags.SURFACE_KIND == KIND_MIRROR;
+    constants->glass |= surface->tags.SURFACE_KIND == KIND_TRANSPARENT;
+    constants->rough |=
+        surface->tags.SURFACE_KIND == KIND_MATTE && surface->more_parameters.OREN_NAYAR_B != 0;
+}
+
+static uint32_t plane_axis(layout_vec4 normal)
+{
+    if (normal.y == 0 && normal.z == 0)
+        return 1;
+    if (normal.x == 0 && normal.z == 0)
+        return 2;
+    return normal.x == 0 && normal.y == 0 ? 3 : 0;
+}
+
+struct specialization specialize(const struct packed_scene *scene, const struct group_shape *shape,
+                                 int output)
+{
+    struct specialization constants = {
+        .group_width = shape->width,
+        .group_height = shape->height,
+        .spheres = scene->sphere_count,
+        .planes = scene->plane_count,
+        .point_lights = scene->point_light_count,
+        .quad_lights = scene->quad_light_count,
+        .max_bounces = scene->max_bounces,
+        .samples = scene->samples,
+        .light_samples = scene->light_samples,
+        .one_roughness = VK_TRUE,
+        .rows = shape->rows,
+        .output = output,
+        .prunes = scene->view.truncation.ALLOWANCE >= 0,
+        .rays_escape = scene->view.between_mirrors.w != 0,
+    };
+    int last_sphere_order = -1;
+    for (int i = 0; i < scene->sphere_count; ++i) {
+        const PackedSurface *surface = &scene->spheres[i].surface;
+        note_surface(&constants, scene, surface);
+        constants.spheres_hold_rays |= surface->tags.HOLDS_RAYS != 0;
+        constants.spheres_hold_lights |= surface->tags.HOLDS_LIGHTS != 0;
+        if (i < 32 && (surface->tags.SURFACE_KIND == KIND_TRANSPARENT || surface->tags.HOLDS_RAYS != 0))
+            constants.entered_spheres |= UINT32_C(1) << i;
+        last_sphere_order = surface->tags.FILE_ORDER;
+    }
+    for (int i = 0; i < scene->plane_count; ++i) {
+        const PackedSurface *surface = &scene->planes[i].surface;
+        note_surface(&constants, scene, surface);
+        constants.glass_planes |= surface->tags.SURFACE_KIND == KIND_TRANSPARENT;
+        constants.planes_shadow |= surface->tags.CASTS_SHADOWS != 0;
+        constants.mixed_order |= surface->tags.FILE_ORDER < last_sphere_order;
+        if (i < 16)
+            constants.plane_axes |= plane_axis(scene->planes[i].normal_offset) << (2 * i);
+    }
+    return constants;
+}

@@ -1,0 +1,54 @@
+#include "tracer/whitted_spirv.h"
+
+#include "whitted_corrected.h"
+#include "whitted_corrected_events.h"
+#include "whitted_corrected_events_storage.h"
+#include "whitted_corrected_storage.h"
+#include "whitted_double.h"
+#include "whitted_double_events.h"
+#include "whitted_double_events_storage.h"
+#include "whitted_double_storage.h"
+#include "whitted_exact.h"
+#include "whitted_exact_events.h"
+#include "whitted_exact_events_storage.h"
+#include "whitted_exact_storage.h"
+#include "whitted_fast.h"
+#include "whitted_fast_storage.h"
+
+struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage)
+{
+#define VARIANT(name)                                                                                        \
+    {                                                                                                        \
+        {name, sizeof name},                                                                                 \
+        {                                                                                                    \
+            name##_storage, sizeof name##_storage                                                            \
+        }                                                                                                    \
+    }
+    static const struct spirv variants[][2] = {
+        [WHITTED_EXACT] = VARIANT(whitted_exact),
+        [WHITTED_CORRECTED] = VARIANT(whitted_corrected),
+        [WHITTED_DOUBLE] = VARIANT(whitted_double),
+        [WHITTED_FAST] = VARIANT(whitted_fast),
+        [WHITTED_EXACT_EVENTS] = VARIANT(whitted_exact_events),
+        [WHITTED_CORRECTED_EVENTS] = VARIANT(whitted_corrected_events),
+        [WHITTED_DOUBLE_EVENTS] = VARIANT(whitted_double_events),
+    };
+#undef VARIANT
+    return variants[variant][scene_in_storage];
+}
+
+const char *whitted_defines(enum whitted_variant variant, bool scene_in_storage)
+{
+#define VARIANT(defines)                                                                                     \
+    {                                                                                                        \
+        defines, defines "#define SCENE_IN_STORAGE\n"                                                        \
+    }
+    static const char *const variants[][2] = {
+        [WHITTED_EXACT] = VARIANT(""),
+        [WHITTED_CORRECTED] = VARIANT("#define CORRECTED\n"),
+        [WHITTED_DOUBLE] = VARIANT("#define DOUBLE\n"),
+        [WHITTED_FAST] = VARIANT("#define FAST\n"),
+    };
+#undef VARIANT
+    return variants[variant][scene_in_storage];
+}

@@ -1,0 +1,58 @@
+#ifndef VKWHITTED_VULKAN_CONTEXT_H
+#define VKWHITTED_VULKAN_CONTEXT_H
+
+#include <stdatomic.h>
+#include <vulkan/vulkan.h>
+
+#include "base/status.h"
+#include "vulkan/arithmetic.h"
+#include "vulkan/result.h"
+
+/* An instance and one device with a compute queue, which may also present. */
+struct vulkan_context {
+    VkInstance instance;
+    VkDebugUtilsMessengerEXT messenger;
+    VkPhysicalDevice physical_device;
+    VkPhysicalDeviceProperties properties;
+    VkPhysicalDeviceDriverProperties driver;
+    VkPhysicalDeviceMemoryProperties memory;
+    VkDevice device;
+    int (*can_present)(VkInstance, VkPhysicalDevice, uint32_t family); /* as in the options */
+    uint32_t queue_family;
+    bool has_float64;        /* enabled */
+    uint32_t timestamp_bits; /* 0: the queue has no timestamps */
+    VkQueue queue;
+    struct arithmetic arithmetic; /* not known before probe_arithmetic() */
+    atomic_uint validation_messages;
+
+    /* Of VK_EXT_debug_utils; NULL where there is none. See vulkan_debug.h. */
+    PFN_vkSetDebugUtilsObjectNameEXT set_object_name;
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label;
+    PFN_vkCmdEndDebugUtilsLabelEXT end_label;
+};
+
+struct vulkan_options {
+    const char *device; /* number or part of the name of a device; NULL: the best one */
+    bool validate;      /* Khronos validation layer, core and synchronisation checks */
+
+    /* What a window system needs to show pictures: extensions of the instance, and whether a queue family can
+     * present; NULL: nothing is shown, and there are no swapchains. */
+    const char *const *instance_extensions;
+    uint32_t instance_extension_count;
+    int (*can_present)(VkInstance, VkPhysicalDevice, uint32_t family);
+};
+
+/* Opens a device. On failure *context is NULL and the reason is reported: STATUS_REFUSED for a device that
+ * does not exist, STATUS_UNABLE for a machine without Vulkan or, with validate, without the layer. */
+enum status vulkan_context_create(const struct vulkan_options *options, struct vulkan_context **context);
+
+/* Destroys and sets *context to NULL. Returns STATUS_UNABLE if the validation layer has had anything to say,
+ * each message having been reported, and STATUS_DONE otherwise. */
+enum status vulkan_context_destroy(struct vulkan_context **context);
+
+/* Prints the devices, their drivers and the limits that matter to standard output, with a * at the one that
+ * these options choose. Each that can be used is opened for print_more(). */
+enum status vulkan_print_devices(const struct vulkan_options *options,
+                                 enum status (*print_more)(struct vulkan_context *));
+
+#endif

@@ -1,0 +1,149 @@
+#include "vulkan/probe.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "arithmetic_probe.h"
+#include "base/clock.h"
+#include "vulkan/compute.h"
+#include "vulkan/hostile_operands.h"
+
+enum { PROBES = 1 << 16, GROUP = 64 };
+static const uint64_t seed = 1980;
+
+/* In the order of probe.comp. */
+struct results {
+    float quotient, root, sum, difference, product, product_sum, product_difference, dot, fma;
+};
+
+static bool same(float a, float b)
+{
+    return memcmp(&a, &b, sizeof a) == 0;
+}
+
+/* Zero, or normal and not so small that it may have been rounded up from a denormal. */
+static bool counts(float x)
+{
+    return x == 0 || (fabsf(x) > FLT_MIN && fabsf(x) <= FLT_MAX);
+}
+
+static void note_flaw(struct arithmetic *found, const char *operation, const struct operands *on,
+                      float result, float expected)
+{
+    if (found->basics_exact)
+        snprintf(found->flaw, sizeof found->flaw, "%s with a = %a, b = %a, c = %a is %a instead of %a",
+                 operation, (double)on->a, (double)on->b, (double)on->c, (double)result, (double)expected);
+    found->basics_exact = false;
+}
+
+static void judge_basics(const struct operands *on, const struct results *results, struct arithmetic *found)
+{
+    const float a = on->a, b = on->b, c = on->c, ab = a * b, bc = b * c, ca = c * a;
+    const struct {
+        const char *operation;
+        float result, expected;
+        bool counts;
+    } basics[] = {
+        {"a + b", results->sum, a + b, true},
+        {"a - b", results->difference, a - b, true},
+        {"a * b", results->product, ab, true},
+        {"a * b + c", results->product_sum, ab + c, counts(ab)},
+        {"c - a * b", results->product_difference, c - ab, counts(ab)},
+        {"a * b + b * c + c * a", results->dot, ab + bc + ca,
+         counts(ab) && counts(bc) && counts(ca) && counts(ab + bc)},
+    };
+    for (size_t i = 0; i < sizeof basics / sizeof *basics; ++i)
+        if (basics[i].counts && counts(basics[i].expected) && !same(basics[i].result, basics[i].expected))
+            note_flaw(found, basics[i].operation, on, basics[i].result, basics[i].expected);
+}
+
+static void judge(const struct operands *operands, const struct results *results, struct arithmetic *found)
+{
+    size_t kept = 0, flushed = 0, fused = 0, unfused = 0;
+    *found =
+        (struct arithmetic){.known = true, .basics_exact = true, .division_exact = true, .root_exact = true};
+    for (size_t i = 0; i < PROBES; ++i) {
+        const float a = operands[i].a, b = operands[i].b, c = operands[i].c, product = a * b;
+        if (!counts(a) || !counts(b) || !counts(c))
+            continue;
+        if (counts(a / b) && !same(results[i].quotient, a / b))
+            found->division_exact = false;
+        if (!same(results[i].root, sqrtf(fabsf(a))))
+            found->root_exact = false;
+        judge_basics(&operands[i], &results[i], found);
+        if (product != 0 && fabsf(product) < FLT_MIN) {
+            kept += same(results[i].product, product);
+            flushed += results[i].product == 0;
+        } else if (counts(product) && counts(product + c)) {
+            float once = fmaf(a, b, c);
+            fused += !same(once, product + c) && same(results[i].fma, once);
+            unfused += !same(once, product + c) && same(results[i].fma, product + c);
+        }
+    }
+    found->denormals = !flushed ? DENORMALS_KEPT : !kept ? DENORMALS_FLUSHED : DENORMALS_MIXED;
+    found->fma = !unfused ? FUSED_ALWAYS : !fused ? FUSED_NEVER : FUSED_MIXED;
+}
+
+enum status probe_arithmetic(struct vulkan_context *context)
+{
+    if (context->arithmetic.known)
+        return STATUS_DONE;
+    double start = clock_ms();
+    struct operands *operands = calloc(PROBES, sizeof *operands);
+    struct results *results = calloc(PROBES, sizeof *results);
+    enum status status = STATUS_UNABLE;
+    if (operands && results) {
+        hostile_operands(seed, operands, PROBES);
+        status = vulkan_compute(context, &(struct compute_job){
+                                             .code = {arithmetic_probe, sizeof arithmetic_probe},
+                                             .input = operands,
+                                             .input_size = PROBES * sizeof *operands,
+                                             .output = results,
+                                             .output_size = PROBES * sizeof *results,
+                                             .groups = PROBES / GROUP,
+                                         });
+    } else {
+        log_error("no memory for %d operands", PROBES);
+    }
+    if (status == STATUS_DONE) {
+        judge(operands, results, &context->arithmetic);
+        log_info("arithmetic probed in %.1f ms", clock_ms() - start);
+    }
+    free(operands);
+    free(results);
+    return status;
+}
+
+enum status probe_require_exact(struct vulkan_context *context)
+{
+    enum status status = probe_arithmetic(context);
+    if (status != STATUS_DONE || context->arithmetic.basics_exact)
+        return status;
+    log_error("%s cannot compute exactly: %s; --fast renders without a promise",
+              context->properties.deviceName, context->arithmetic.flaw);
+    return STATUS_UNABLE;
+}
+
+enum status probe_print(struct vulkan_context *context)
+{
+    static const char *const denormals[] = {"kept", "flushed", "kept and flushed"};
+    static const char *const fma[] = {"fused", "not fused", "fused at times"};
+    enum status status = probe_arithmetic(context);
+    if (status != STATUS_DONE)
+        return status;
+    const struct arithmetic *found = &context->arithmetic;
+    bool native = found->division_exact && found->root_exact;
+    printf("      arithmetic      ÷ %s, √ %s, %s: %s; denormals %s, fma %s\n",
+           found->division_exact ? "exact" : "inexact", found->root_exact ? "exact" : "inexact",
+           found->basics_exact ? "no contraction" : found->flaw,
+           !found->basics_exact    ? "only --fast"
+           : native                ? "native"
+           : found->root_exact     ? "÷ corrected"
+           : found->division_exact ? "√ corrected"
+                                   : "corrected",
+           denormals[found->denormals], fma[found->fma]);
+    return STATUS_DONE;
+}
