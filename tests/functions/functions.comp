@@ -88,22 +88,6 @@ void call_sobol_point(sobol_point_input i, out sobol_point_output o)
     sequence_point(sequence_of(uint(i.seed)), uint(i.index), o.u, o.v);
 }
 
-Hit no_hit()
-{
-    Hit none;
-    none.distance = FARTHEST_HIT;
-    none.surface = -1;
-    none.from_inside = false;
-    none.shape = vec4(0);
-    none.parameters = vec4(0);
-    none.oren_nayar_b = 0.0;
-    none.kind = KIND_MATTE;
-    none.file_order = 0;
-    none.center_offset = vec3(0);
-    none.half_chord = 0.0;
-    return none;
-}
-
 // All 0 where nothing was met.
 HitRecord record_of(Ray ray, Hit hit)
 {

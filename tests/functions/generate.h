@@ -7,8 +7,8 @@
 struct PackedSphere random_sphere(struct random *random);
 struct PackedPlane random_plane(struct random *random);
 
-/* The nearest point of the plane to the origin. */
-struct dvec3 foot_of(const struct PackedPlane *plane);
+/* The point of the plane that is nearest to the origin. */
+struct dvec3 nearest_to_origin(const struct PackedPlane *plane);
 
 /* From start so far in a random direction along the plane. */
 struct dvec3 random_in_plane(struct random *random, const struct PackedPlane *plane, struct dvec3 start,

@@ -69,7 +69,7 @@ static MatteRecord random_matte(struct random *random, const struct PackedSphere
         normal = inward ? dvec3_scale(-1, normal) : normal;
     } else if (surface == 1) {
         normal = widen(vector_of(plane->normal_offset));
-        point = random_in_plane(random, plane, foot_of(plane), random_between(random, -1, 1));
+        point = random_in_plane(random, plane, nearest_to_origin(plane), random_between(random, -1, 1));
     }
     double cos_out = one_in(random, 4) ? random_scale(random, 1e-9, 1e-2) : random_between(random, 0, 1);
     struct dvec3 ray = dvec3_along(dvec3_scale(-cos_out, normal), sqrt(1 - cos_out * cos_out),
@@ -127,7 +127,8 @@ void generate_point_light(struct random *random, point_light_input *input)
         light = dvec3_along(point, random_scale(random, 1e-12, 1e-3), normal);
         break;
     case 3: /* on the plane */
-        light = random_in_plane(random, &input->plane, foot_of(&input->plane), random_between(random, -2, 2));
+        light = random_in_plane(random, &input->plane, nearest_to_origin(&input->plane),
+                                random_between(random, -2, 2));
         break;
     case 4: /* in or on the sphere */
         light = random_away(random, widen(vector_of(input->sphere.center_radius)),

@@ -27,7 +27,7 @@ struct PackedPlane random_plane(struct random *random)
     return plane;
 }
 
-struct dvec3 foot_of(const struct PackedPlane *plane)
+struct dvec3 nearest_to_origin(const struct PackedPlane *plane)
 {
     return dvec3_scale((double)plane->normal_offset.w, dvec3_unit(widen(vector_of(plane->normal_offset))));
 }
@@ -119,7 +119,8 @@ static RayRecord ray_at_plane(struct random *random, const struct PackedPlane *p
 {
     struct dvec3 normal = dvec3_unit(widen(vector_of(plane->normal_offset)));
     struct dvec3 tangent = random_tangent(random, normal);
-    struct dvec3 on_plane = random_in_plane(random, plane, foot_of(plane), random_between(random, -2, 2));
+    struct dvec3 on_plane =
+        random_in_plane(random, plane, nearest_to_origin(plane), random_between(random, -2, 2));
     struct dvec3 origin = random_point(random), direction = random_direction(random);
     RayRecord ray = {.surface = NO_SURFACE};
     switch (random_below(random, 16)) {

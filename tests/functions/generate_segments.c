@@ -95,7 +95,8 @@ void generate_plane_shadows(struct random *random, plane_shadows_input *input)
 {
     struct PackedPlane plane = random_plane(random);
     struct dvec3 normal = dvec3_unit(widen(vector_of(plane.normal_offset)));
-    struct dvec3 on_plane = random_in_plane(random, &plane, foot_of(&plane), random_between(random, -2, 2));
+    struct dvec3 on_plane =
+        random_in_plane(random, &plane, nearest_to_origin(&plane), random_between(random, -2, 2));
     struct dvec3 from = random_point(random), to = random_point(random);
     double height = random_signed(random, 1e-9, 1e-3);
     int surface = NO_SURFACE;
