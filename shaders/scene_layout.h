@@ -39,16 +39,16 @@ typedef struct PackedSurface PackedSurface;
 /* A ray of smaller weight is not traced and a smaller pixel value is 0, for the same reason. */
 #define SMALLEST_WEIGHT 8.077935669463161e-28 /* 2^-90 */
 
-/* What a pixel's three values are: radiance; the numbers of primary, secondary and shadow rays; the path
- * signature, a hash of every decision of the ray tree (what was hit and from which side, total reflection, lit
- * or not), as its lower and upper 16 bits and 0; or the charges for rays that were not traced. */
+/* What a pixel's three values are: radiance; the numbers of primary, secondary and shadow rays; or the path
+ * signature, a hash of every decision of the ray tree, as its lower and upper 16 bits and 0; or what rays that
+ * were not traced are charged. */
 #define OUTPUT_RADIANCE 0
 #define OUTPUT_RAYS 1
 #define OUTPUT_SIGNATURE 2
 #define OUTPUT_TRUNCATION 3 /* the charges of the pixel's samples, summed, 0 and 0 */
 
-/* A pixel's first value where it has none yet: part of its ray tree is left for the next dispatch of a resumable
- * pipeline (resume.glsl); or the driver has, or may have, ended its loops. */
+/* A pixel's first value where it has none yet: a resumable pipeline has part of its ray tree left; or its loops were,
+ * or may have been, ended by the driver. */
 #define UNFINISHED (-1.0)
 #define TOO_LONG (-2.0)
 
@@ -67,12 +67,12 @@ typedef struct PackedSurface PackedSurface;
 
 /* What both tracers can tell of one pixel: events in the order of the recursion. Each has a head and values: two
  * vectors and a number. */
-#define EVENT_RAY 0      /* facts: the surface that it leaves, inward; values: origin, direction, weight */
+#define EVENT_RAY 0      /* facts: surface left, inward; values: origin, direction, weight */
 #define EVENT_HIT 1      /* facts: surface or -1, from_inside; values: normal, point, distance */
 #define EVENT_SPLIT 2    /* facts: total reflection; values: refracted direction, (cos_in, k_r) */
 #define EVENT_UNTRACED 3 /* facts: UNTRACED_; values: (weight, charge of the sample so far) */
 #define EVENT_LIGHT 4    /* facts: light, sample, LIGHT_, blocker; values: point, (distance, cos_in, received), area */
-#define EVENT_LEAF 5     /* the ray ends: values: radiance seen, contribution */
+#define EVENT_LEAF 5     /* values: radiance seen, contribution */
 #define EVENT_SAMPLE 6   /* values: radiance, 0, charge */
 #define EVENT_PIXEL 7    /* values: radiance */
 #define EVENT_KINDS 8
