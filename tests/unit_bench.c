@@ -9,13 +9,9 @@
 
 #include <cmocka.h>
 
-#include <sys/stat.h>
-
 #include "base/statistics.h"
 #include "bench/compare.h"
-#include "bench/energy.h"
-#include "bench/error.h"
-#include "bench/pareto.h"
+#include "bench/document.h"
 #include "test_folder.h"
 
 static void assert_near(double value, double expected, double tolerance)
@@ -24,23 +20,36 @@ static void assert_near(double value, double expected, double tolerance)
         fail_msg("%.17g, expected %.17g", value, expected);
 }
 
+/* Points with these times and errors within which 99.9 % of the pixels are. */
+static void make_points(const double *times, const double *errors, size_t count, struct bench_point *points)
+{
+    for (size_t i = 0; i < count; ++i)
+        points[i] = (struct bench_point){.median_ms = times[i], .error.absolute_999 = errors[i]};
+}
+
 static void front_is_what_nothing_beats(void **state)
 {
     (void)state;
-    const double times[] = {1, 2, 3, 2, 5, 1, 0.5}, errors[] = {9, 4, 4, 3, 1, 9, INFINITY};
-    const bool expected[] = {true, false, false, true, true, true, false};
-    bool front[7];
-    pareto_front(times, errors, 7, front);
-    assert_memory_equal(front, expected, sizeof front);
+    const double times[] = {1, 2, 3, 2, 5, 1, 0.5, 6}, errors[] = {9, 4, 4, 3, 1, 9, INFINITY, 5};
+    const bool expected[] = {true, false, false, true, true, true, false, true};
+    struct bench_point points[8];
+    make_points(times, errors, 8, points);
+    points[7].setting.family = FAMILY_SAMPLES; /* has a truth of its own */
+    bench_mark_pareto(points, 8);
+    for (int i = 0; i < 8; ++i)
+        assert_int_equal(points[i].pareto, expected[i]);
 }
 
 static void fastest_within_an_error(void **state)
 {
     (void)state;
-    const double times[] = {5, 3, 4, 1}, errors[] = {1e-3, 1e-2, 1e-2, NAN};
-    assert_int_equal(fastest_within(times, errors, 4, 1e-2), 1);
-    assert_int_equal(fastest_within(times, errors, 4, 5e-3), 0);
-    assert_int_equal(fastest_within(times, errors, 4, 1e-4), 4);
+    const double times[] = {5, 3, 4, 1, 0.5}, errors[] = {1e-3, 1e-2, 1e-2, NAN, 1e-6};
+    struct bench_point points[5];
+    make_points(times, errors, 5, points);
+    points[4].setting.family = FAMILY_SAMPLES;
+    assert_ptr_equal(bench_fastest_within(points, 5, 1e-2), &points[1]);
+    assert_ptr_equal(bench_fastest_within(points, 5, 5e-3), &points[0]);
+    assert_null(bench_fastest_within(points, 5, 1e-4));
 }
 
 static void slope_of_a_power(void **state)
@@ -260,57 +269,6 @@ static void compare_nothing_in_common(void **state)
     assert_non_null(strstr(text, "another truth"));
 }
 
-static void write_number(const char *folder, const char *name, const char *text)
-{
-    char path[600];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-}
-
-static void make_zone(const char *zone, const char *name, const char *microjoules)
-{
-    mkdir(zone, 0700);
-    write_number(zone, "name", name);
-    write_number(zone, "energy_uj", microjoules);
-    write_number(zone, "max_energy_range_uj", "1000000\n");
-}
-
-static void remove_zone(const char *zone)
-{
-    static const char *const files[] = {"name", "energy_uj", "max_energy_range_uj"};
-    for (int i = 0; i < 3; ++i) {
-        char path[64];
-        snprintf(path, sizeof path, "%s/%s", zone, files[i]);
-        unlink(path);
-    }
-}
-
-static void energy_of_the_packages(void **state)
-{
-    (void)state;
-    struct energy_meter meter;
-    double joules = -1;
-    energy_meter_open(&meter, test_folder);
-    assert_false(energy_meter_read(&meter, &joules));
-    make_zone("intel-rapl:0", "package-0\n", "900000\n");
-    make_zone("intel-rapl:1", "psys\n", "5\n");
-    make_zone("intel-rapl:2", "package-1\n", "100000\n");
-    energy_meter_open(&meter, test_folder);
-    assert_int_equal(meter.count, 2);
-    write_number("intel-rapl:0", "energy_uj", "100000\n"); /* has started again */
-    write_number("intel-rapl:2", "energy_uj", "400000\n");
-    assert_true(energy_meter_read(&meter, &joules));
-    assert_near(joules, 0.2 + 0.3, 1e-9);
-    assert_true(energy_meter_read(&meter, &joules));
-    assert_near(joules, 0.5, 1e-9);
-    remove_zone("intel-rapl:0");
-    remove_zone("intel-rapl:1");
-    remove_zone("intel-rapl:2");
-}
-
 static void no_bench_document(void **state)
 {
     (void)state;
@@ -318,7 +276,10 @@ static void no_bench_document(void **state)
     for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i) {
         json_t *document;
         char message[256];
-        write_number(".", "old.json", texts[i]);
+        FILE *file = fopen("old.json", "w");
+        assert_non_null(file);
+        fputs(texts[i], file);
+        fclose(file);
         test_messages_begin();
         enum status status = bench_document_read("old.json", &document);
         assert_int_equal(test_messages_end(message), 1);
@@ -341,7 +302,6 @@ int main(void)
         cmocka_unit_test(compare_with_control),
         cmocka_unit_test(compare_errors),
         cmocka_unit_test(compare_nothing_in_common),
-        cmocka_unit_test_setup_teardown(energy_of_the_packages, test_folder_setup, test_folder_teardown),
         cmocka_unit_test_setup_teardown(no_bench_document, test_folder_setup, test_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

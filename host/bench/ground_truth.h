@@ -8,35 +8,34 @@
  * at some of the pixels only. What is computed depends on the scene and its size, not on the machine. */
 struct ground_truth {
     struct pixel_grid grid;
-    double *rgb; /* 3 a pixel of the grid */
-    enum precision precision;
+    double *rgb;    /* 3 a pixel of the grid */
     char text[200]; /* what it is, for people */
 };
 
-/* How much work a truth may be: rays times objects. */
-struct bench_effort {
-    double quad_work, double_work;
-    unsigned samples; /* of what is sampled */
+/* How much work truths may be: rays times objects. */
+struct truth_effort {
+    double quad, with_double, explained; /* explained: quad with the error analysis */
+    unsigned samples;                    /* of what is sampled */
 };
 
 /* The most bounces, at least the scene's and otherwise at most 64, with which rays do not multiply beyond
- * reason. *has_secondary_rays gets whether there is anything that rays bounce from. */
-enum status bench_deepest(const struct scene *scene, const struct picture_settings *settings,
-                          unsigned *deepest, bool *has_secondary_rays);
+ * reason. */
+enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *most);
 
-/* The picture with `deepest` bounces and converged light samples: quad, or double where lights are sampled.
- */
-enum status ground_truth_create(const struct scene *scene, struct picture_settings settings, unsigned deepest,
-                                const struct bench_effort *effort, struct progress *progress,
-                                double progress_total, struct ground_truth *truth);
+/* The picture with the settings' bounces and converged light samples, in quad, or in double where lights are
+ * sampled. On failure (reported) the truth is empty; otherwise the caller frees it. Advances progress by
+ * `share`. */
+enum status ground_truth_create(const struct scene *scene, struct picture_settings settings, bool sampled,
+                                const struct truth_effort *effort, struct progress *progress, double share,
+                                struct ground_truth *truth);
 
-/* The picture as the settings say but for converged pixel samples, in double. */
+/* The picture as the settings say but for converged pixel samples, in double; the rest as above. */
 enum status ground_truth_create_filtered(const struct scene *scene, struct picture_settings settings,
-                                         const struct bench_effort *effort, struct progress *progress,
-                                         double progress_total, struct ground_truth *truth);
+                                         const struct truth_effort *effort, struct progress *progress,
+                                         double share, struct ground_truth *truth);
 void ground_truth_destroy(struct ground_truth *truth);
 
-/* So many pixels of the scene are about this much work in quad with the error analysis. */
-double bench_explained_pixels(const struct packed_scene *packed, double work);
+/* The finest grid over the packed scene's picture that is about so much work. */
+enum status grid_of_work(const struct packed_scene *packed, double work, struct pixel_grid *grid);
 
 #endif

@@ -52,7 +52,6 @@ static const char help_text[] =
     "bench:\n"
     "  --quick                  a minute's worth\n"
     "  --report FILE.html       all of it on one page, with charts\n"
-    "  --chart FILE.svg         speed against error of one scene\n"
     "  --json FILE, --csv FILE  the measurements\n"
     "  --compare OLD.json       what became faster, slower or less accurate beyond noise\n"
     "\n"

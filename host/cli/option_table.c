@@ -36,7 +36,6 @@ const struct option option_table[] = {
     {"json", required_argument, NULL, OPTION_JSON},
     {"csv", required_argument, NULL, OPTION_CSV},
     {"report", required_argument, NULL, OPTION_REPORT},
-    {"chart", required_argument, NULL, OPTION_CHART},
     {"compare", required_argument, NULL, OPTION_COMPARE},
     {"quick", no_argument, NULL, OPTION_QUICK},
     {"shaders", required_argument, NULL, OPTION_SHADERS},
@@ -70,7 +69,6 @@ int option_takers(int id)
         return CHECK | BENCH | PIXEL;
     case OPTION_CSV:
     case OPTION_REPORT:
-    case OPTION_CHART:
     case OPTION_COMPARE:
     case OPTION_QUICK:
         return BENCH;

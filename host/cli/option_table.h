@@ -28,7 +28,6 @@ enum option_id {
     OPTION_JSON,
     OPTION_CSV,
     OPTION_REPORT,
-    OPTION_CHART,
     OPTION_COMPARE,
     OPTION_QUICK,
     OPTION_SHADERS,

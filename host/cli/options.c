@@ -185,8 +185,6 @@ static enum status read_option(int id, const char *argument, struct options *opt
         return read_text(argument, &options->csv);
     case OPTION_REPORT:
         return read_text(argument, &options->report);
-    case OPTION_CHART:
-        return read_text(argument, &options->chart);
     case OPTION_COMPARE:
         return read_text(argument, &options->compare);
     case OPTION_QUICK:
@@ -264,8 +262,6 @@ static enum status check_consistency(struct options *options)
         problem = "--max-error does not go with --against, which judges rounding alone";
     else if (options->heatmap && options->scene_count > 1)
         problem = "--heatmap takes one scene file";
-    else if (options->chart && options->scene_count > 1)
-        problem = "--chart takes one scene file";
     else if (options->heatmap && image_format_of(options->heatmap) != IMAGE_FORMAT_PNG)
         problem = "--heatmap writes a .png";
     if (!problem)

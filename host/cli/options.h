@@ -36,7 +36,7 @@ struct options {
     enum precision
         against; /* PRECISION_FLOAT: bit for bit against the reference, otherwise against the truth */
     const char *stats, *json, *heatmap;
-    const char *csv, *report, *chart, *compare; /* bench; compare is an earlier one's JSON file */
+    const char *csv, *report, *compare; /* bench; compare is an earlier one's JSON file */
     bool quick;
     unsigned x, y;       /* of pixel */
     const char *shaders; /* folder; NULL: the one that came with the program */
