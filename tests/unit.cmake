@@ -9,6 +9,7 @@ function(add_unit_test module)
 endfunction()
 
 add_unit_test(bench)
+target_link_options(unit_bench PRIVATE -Wl,--wrap=calloc,--wrap=malloc) # to have them fail
 add_unit_test(camera_motion)
 add_unit_test(compare)
 if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND NOT VKWHITTED_SANITIZE)

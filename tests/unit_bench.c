@@ -12,7 +12,9 @@
 #include "base/statistics.h"
 #include "bench/compare.h"
 #include "bench/document.h"
+#include "bench/report.h"
 #include "test_folder.h"
+#include "test_render.h"
 
 static void assert_near(double value, double expected, double tolerance)
 {
@@ -105,7 +107,7 @@ static void errors_of_a_picture(void **state)
     for (int i = 0; i < 12; ++i)
         exact[i] = rgb[i] = 0.5F;
     const struct image image = {.width = 2, .height = 2, .rgb = rgb};
-    const struct ground_truth truth = {.grid = pixel_grid_fitting(2, 2, 4), .rgb = exact};
+    const struct ground_truth truth = {.pixels = {.grid = pixel_grid_fitting(2, 2, 4), .rgb = exact}};
     struct bench_error error;
     assert_int_equal(bench_error_measure(&image, &truth, &error), STATUS_DONE);
     assert_true(error.max == 0 && error.rmse == 0 && error.rmse_uncertainty == 0 &&
@@ -289,6 +291,109 @@ static void no_bench_document(void **state)
     }
 }
 
+/* The linker has calloc() and malloc() of the program, but not of its libraries, come here. The one that is
+ * so many calls away fails. */
+static int calls_to_failure = -1;
+void *__real_calloc(size_t count, size_t size);
+void *__real_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_malloc(size_t size);
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    return calls_to_failure-- == 0 ? NULL : __real_calloc(count, size);
+}
+
+void *__wrap_malloc(size_t size)
+{
+    return calls_to_failure-- == 0 ? NULL : __real_malloc(size);
+}
+
+static struct scene glass;
+static struct picture_settings glass_picture;
+static const struct truth_effort little = {.quad = 1e4, .with_double = 1e4, .explained = 1e4, .samples = 16};
+
+static bool deep_enough, truth_emptied = true;
+
+static enum status deepest(void)
+{
+    struct packed_scene packed;
+    unsigned most;
+    enum status status = pack_scene(&glass, &glass_picture, &packed);
+    if (status != STATUS_DONE)
+        return status;
+    status = ground_truth_bounces(&packed, &most);
+    deep_enough = most == 64;
+    pack_destroy(&packed);
+    return status;
+}
+
+static enum status truth_and_error(void)
+{
+    struct ground_truth truth;
+    struct progress progress;
+    struct bench_error error;
+    static float black[12 * 8 * 3];
+    progress_start(&progress, "", 10, true);
+    enum status status =
+        ground_truth_create(&glass, glass_picture, TRUTH_EXACT, &little, &progress, 10, &truth);
+    if (status != STATUS_DONE) {
+        truth_emptied &= !truth.pixels.rgb;
+        return status;
+    }
+    status = bench_error_measure(&(struct image){.width = 12, .height = 8, .rgb = black}, &truth, &error);
+    grid_pixels_destroy(&truth.pixels);
+    return status;
+}
+
+static enum status rounds(void)
+{
+    struct progress progress;
+    progress_start(&progress, "", 10, true);
+    return bench_run_rounds(NULL, 0, &(struct run_limits){.all_ms = 1}, NULL, &progress, 10);
+}
+
+static enum status pictures(void)
+{
+    static float black[12 * 8 * 3];
+    const struct image image = {.width = 12, .height = 8, .rgb = black};
+    json_t *made;
+    enum status status = report_pictures(&image, &image, &made);
+    if (status == STATUS_DONE && !made)
+        return STATUS_REFUSED;
+    json_decref(made);
+    return status;
+}
+
+/* Each of the allocations fails once: that is reported once, and is no crash. */
+static void no_memory(void **state)
+{
+    (void)state;
+    enum status (*const tries[])(void) = {deepest, truth_and_error, rounds, pictures};
+    glass = test_read("scenes/figure_3c.yaml");
+    glass_picture = test_settings(&glass);
+    glass_picture.width = 12;
+    glass_picture.height = 8;
+    for (size_t i = 0; i < sizeof tries / sizeof *tries; ++i) {
+        int failures = 0;
+        for (enum status status = STATUS_UNABLE; status != STATUS_DONE; ++failures) {
+            char message[256];
+            test_messages_begin();
+            calls_to_failure = failures;
+            status = tries[i]();
+            bool failed = calls_to_failure < 0;
+            calls_to_failure = -1;
+            int messages = test_messages_end(message);
+            if (status != (failed ? STATUS_UNABLE : STATUS_DONE) || messages != failed)
+                fail_msg("try %zu, allocation %d: status %d, %d messages: %s", i, failures, (int)status,
+                         messages, message);
+        }
+        assert_true(failures > 1);
+    }
+    assert_true(deep_enough && truth_emptied);
+    scene_destroy(&glass);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -302,6 +407,7 @@ int main(void)
         cmocka_unit_test(compare_with_control),
         cmocka_unit_test(compare_errors),
         cmocka_unit_test(compare_nothing_in_common),
+        cmocka_unit_test(no_memory),
         cmocka_unit_test_setup_teardown(no_bench_document, test_folder_setup, test_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -170,8 +170,8 @@ json_t *bench_scene_document(const struct bench_result *result)
         "scene", result->path, "width", (int)picture->width, "height", (int)picture->height, "max_bounces",
         (int)picture->max_bounces, "light_samples", (int)picture->light_samples, "samples",
         (int)picture->samples, "sampled", result->sampled, "truth", result->truth.text, "truth_pixels",
-        (json_int_t)pixel_grid_count(&result->truth.grid), "truth_samples", result->filtered.text,
-        "truth_samples_pixels", (json_int_t)pixel_grid_count(&result->filtered.grid), "points", points,
+        (json_int_t)pixel_grid_count(&result->truth.pixels.grid), "truth_samples", result->filtered.text,
+        "truth_samples_pixels", (json_int_t)pixel_grid_count(&result->filtered.pixels.grid), "points", points,
         "convergence", convergence, "agreement", agreement, "rounding", describe_rounding(result),
         "recommendations", describe_recommendation(result, 1e-2), describe_recommendation(result, 1e-3),
         describe_recommendation(result, 1e-4), describe_recommendation(result, 1e-5));

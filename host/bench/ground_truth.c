@@ -1,51 +1,15 @@
 #include "bench/ground_truth.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { ALL_BOUNCES = 64, STRIDE_OF_BOUNCES = 4, PILOT_PIXELS = 300 };
+#include "base/statistics.h"
+#include "image/srgb.h"
 
-static const double most_rays_a_pixel = 2000;
+enum { ALL_BOUNCES = 64, STRIDE_OF_BOUNCES = 4 };
 
-/* Room for the colours of so many pixels; NULL (reported) without memory. */
-static double *allocate_rgb(size_t pixels)
-{
-    double *rgb = calloc(pixels, 3 * sizeof *rgb);
-    if (!rgb)
-        log_error("no memory for %zu pixels", pixels);
-    return rgb;
-}
-
-/* Counts the rays of some of the picture's pixels, with one sample of everything. */
-static enum status count_rays(const struct packed_scene *packed, struct reference_rays *rays, double *pixels)
-{
-    struct packed_scene pilot = *packed;
-    pilot.samples = pilot.light_samples = 1;
-    struct pixel_grid grid = pixel_grid_fitting((unsigned)pilot.width, (unsigned)pilot.height, PILOT_PIXELS);
-    struct grid_pixels result = {.rgb = allocate_rgb(pixel_grid_count(&grid))};
-    *rays = (struct reference_rays){0};
-    *pixels = (double)pixel_grid_count(&grid);
-    if (!result.rgb)
-        return STATUS_UNABLE;
-    enum status status = pixel_grid_render(&pilot, PRECISION_FLOAT, &grid, &result, NULL, 0);
-    free(result.rgb);
-    *rays = result.rays;
-    return status;
-}
-
-enum status grid_of_work(const struct packed_scene *packed, double work, struct pixel_grid *grid)
-{
-    struct reference_rays rays;
-    double pixels;
-    enum status status = count_rays(packed, &rays, &pixels);
-    if (status != STATUS_DONE)
-        return status;
-    double lights = packed->quad_light_count > 0 ? packed->light_samples : 1;
-    double work_a_pixel = ((double)(rays.primary + rays.secondary) + (double)rays.shadow * lights) *
-                          packed->samples * (packed->sphere_count + packed->plane_count + 1) / pixels;
-    *grid = pixel_grid_fitting((unsigned)packed->width, (unsigned)packed->height, work / work_a_pixel);
-    return STATUS_DONE;
-}
+static const double most_rays_a_pixel = 2000, relative_floor = 1e-3;
 
 enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *most)
 {
@@ -56,7 +20,7 @@ enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *mo
         double pixels;
         unsigned next = *most + STRIDE_OF_BOUNCES;
         pilot.max_bounces = (int)(next < ALL_BOUNCES ? next : ALL_BOUNCES);
-        enum status status = count_rays(&pilot, &rays, &pixels);
+        enum status status = grid_count_rays(&pilot, &rays, &pixels);
         if (status != STATUS_DONE || (double)rays.secondary > most_rays_a_pixel * pixels)
             return status;
         *most = (unsigned)pilot.max_bounces;
@@ -64,65 +28,98 @@ enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *mo
     return STATUS_DONE;
 }
 
-/* The text `what` says what it is; where it holds is added. */
-static enum status create(const struct scene *scene, struct picture_settings *settings,
-                          enum precision precision, double work, const char *what, struct progress *progress,
-                          double share, struct ground_truth *truth)
+enum status ground_truth_create(const struct scene *scene, struct picture_settings settings,
+                                enum truth_kind kind, const struct truth_effort *effort,
+                                struct progress *progress, double share, struct ground_truth *truth)
 {
     struct packed_scene packed;
+    enum grid_output output = kind == TRUTH_EXACT ? GRID_QUAD : GRID_DOUBLE;
+    char what[100], where[100] = "every pixel";
     *truth = (struct ground_truth){0};
-    enum status status = pack_scene(scene, settings, &packed);
-    if (status != STATUS_DONE)
-        return status;
-    status = grid_of_work(&packed, work, &truth->grid);
-    if (status == STATUS_DONE) {
-        struct grid_pixels pixels = {.rgb = truth->rgb = allocate_rgb(pixel_grid_count(&truth->grid))};
-        status = truth->rgb ? pixel_grid_render(&packed, precision, &truth->grid, &pixels, progress, share)
-                            : STATUS_UNABLE;
-    }
-    pack_destroy(&packed);
-    if (status != STATUS_DONE) {
-        ground_truth_destroy(truth);
-        return status;
-    }
-    int length = snprintf(truth->text, sizeof truth->text, "the reference in %s, at ", what);
-    if (truth->grid.step == 1)
-        snprintf(truth->text + length, sizeof truth->text - (size_t)length, "every pixel");
-    else
-        snprintf(truth->text + length, sizeof truth->text - (size_t)length,
-                 "%zu pixels: one in %u, both ways", pixel_grid_count(&truth->grid), truth->grid.step);
-    return STATUS_DONE;
-}
-
-enum status ground_truth_create(const struct scene *scene, struct picture_settings settings, bool sampled,
-                                const struct truth_effort *effort, struct progress *progress, double share,
-                                struct ground_truth *truth)
-{
-    char what[100];
-    if (sampled) {
+    if (kind == TRUTH_OF_SAMPLES) {
+        settings.samples = effort->samples;
+        settings.light_samples = 1; /* of each pixel sample: together as many as those */
+        snprintf(what, sizeof what, "double with %u samples a pixel", settings.samples);
+    } else if (kind == TRUTH_OF_LIGHTS) {
         settings.light_samples = effort->samples;
         snprintf(what, sizeof what, "double with %u bounces and %u light samples", settings.max_bounces,
                  settings.light_samples);
     } else {
         snprintf(what, sizeof what, "quad (binary128) with %u bounces", settings.max_bounces);
     }
-    return create(scene, &settings, sampled ? PRECISION_DOUBLE : PRECISION_QUAD,
-                  sampled ? effort->with_double : effort->quad, what, progress, share, truth);
+    enum status status = pack_scene(scene, &settings, &packed);
+    if (status != STATUS_DONE)
+        return status;
+    status = grid_render(&packed, output, kind == TRUTH_EXACT ? effort->quad : effort->with_double, progress,
+                         share, &truth->pixels);
+    pack_destroy(&packed);
+    const struct pixel_grid *grid = &truth->pixels.grid;
+    if (grid->step > 1)
+        snprintf(where, sizeof where, "%zu pixels: one in %u, both ways", pixel_grid_count(grid), grid->step);
+    snprintf(truth->text, sizeof truth->text, "the reference in %s, at %s", what, where);
+    return status;
 }
 
-enum status ground_truth_create_filtered(const struct scene *scene, struct picture_settings settings,
-                                         const struct truth_effort *effort, struct progress *progress,
-                                         double share, struct ground_truth *truth)
+static bool is_off_8bit(const struct srgb_encoder *encoder, const float *value, const double *exact)
 {
-    char what[100];
-    settings.samples = effort->samples;
-    settings.light_samples = 1; /* of each pixel sample: together as many as those */
-    snprintf(what, sizeof what, "double with %u samples a pixel", settings.samples);
-    return create(scene, &settings, PRECISION_DOUBLE, effort->with_double, what, progress, share, truth);
+    const float exact_float[3] = {(float)exact[0], (float)exact[1], (float)exact[2]};
+    uint8_t code[3], exact_code[3];
+    srgb_encode(encoder, value, 3, code);
+    srgb_encode(encoder, exact_float, 3, exact_code);
+    for (int c = 0; c < 3; ++c)
+        if (abs((int)code[c] - (int)exact_code[c]) > 1)
+            return true;
+    return false;
 }
 
-void ground_truth_destroy(struct ground_truth *truth)
+/* The pixel's largest errors over the channels; returns the mean of their squares. */
+static double measure_pixel(const struct image *image, size_t place, const double *exact, double *absolute,
+                            double *relative)
 {
-    free(truth->rgb);
-    *truth = (struct ground_truth){0};
+    double squares = 0;
+    *absolute = *relative = 0;
+    for (size_t c = 0; c < 3; ++c) {
+        size_t at = 3 * place + c;
+        double error = fabs((image->rgb64 ? image->rgb64[at] : (double)image->rgb[at]) - exact[c]);
+        error = isnan(error) ? INFINITY : error;
+        *absolute = fmax(*absolute, error);
+        *relative = fmax(*relative, error / fmax(fabs(exact[c]), relative_floor));
+        squares += error * error;
+    }
+    return squares / 3;
+}
+
+enum status bench_error_measure(const struct image *image, const struct ground_truth *truth,
+                                struct bench_error *error)
+{
+    size_t count = pixel_grid_count(&truth->pixels.grid);
+    double *absolute = calloc(2 * count, sizeof *absolute);
+    double sum = 0, sum_of_squares = 0; /* of the pixels' mean squares */
+    struct srgb_encoder encoder;
+    *error = (struct bench_error){0};
+    if (!absolute) {
+        log_error("no memory for the errors of %zu pixels", count);
+        return STATUS_UNABLE;
+    }
+    double *relative = absolute + count;
+    srgb_encoder_init(&encoder);
+    for (size_t i = 0; i < count; ++i) {
+        size_t place = pixel_grid_place(&truth->pixels.grid, i, image->width);
+        const double *exact = &truth->pixels.rgb[3 * i];
+        double mean_square = measure_pixel(image, place, exact, &absolute[i], &relative[i]);
+        sum += mean_square;
+        sum_of_squares += mean_square * mean_square;
+        error->pixels_off_8bit += is_off_8bit(&encoder, &image->rgb[3 * place], exact);
+    }
+    sort_doubles(absolute, count);
+    sort_doubles(relative, count);
+    double n = (double)count, variance = sum_of_squares / n - (sum / n) * (sum / n);
+    error->max = absolute[count - 1];
+    error->rmse = sqrt(sum / n);
+    error->rmse_uncertainty = sum > 0 ? sqrt(fmax(variance, 0) / n) / (2 * error->rmse) : 0;
+    error->absolute_999 = sorted_quantile(absolute, count, 0.999);
+    error->relative_median = sorted_quantile(relative, count, 0.5);
+    error->relative_999 = sorted_quantile(relative, count, 0.999);
+    free(absolute);
+    return STATUS_DONE;
 }

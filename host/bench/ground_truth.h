@@ -7,8 +7,7 @@
 /* What errors are measured against: the reference at high precision, as far as it is affordable, which may be
  * at some of the pixels only. What is computed depends on the scene and its size, not on the machine. */
 struct ground_truth {
-    struct pixel_grid grid;
-    double *rgb;    /* 3 a pixel of the grid */
+    struct grid_pixels pixels;
     char text[200]; /* what it is, for people */
 };
 
@@ -22,20 +21,28 @@ struct truth_effort {
  * reason. */
 enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *most);
 
-/* The picture with the settings' bounces and converged light samples, in quad, or in double where lights are
- * sampled. On failure (reported) the truth is empty; otherwise the caller frees it. Advances progress by
- * `share`. */
-enum status ground_truth_create(const struct scene *scene, struct picture_settings settings, bool sampled,
-                                const struct truth_effort *effort, struct progress *progress, double share,
-                                struct ground_truth *truth);
+/* Which picture is true: that of the settings in quad; in double where lights are sampled, with converged
+ * light samples; or in double with converged pixel samples. */
+enum truth_kind { TRUTH_EXACT, TRUTH_OF_LIGHTS, TRUTH_OF_SAMPLES };
 
-/* The picture as the settings say but for converged pixel samples, in double; the rest as above. */
-enum status ground_truth_create_filtered(const struct scene *scene, struct picture_settings settings,
-                                         const struct truth_effort *effort, struct progress *progress,
-                                         double share, struct ground_truth *truth);
-void ground_truth_destroy(struct ground_truth *truth);
+/* Renders the truth, and advances progress by `share`. On failure (reported) the truth is empty; otherwise
+ * the caller frees it. */
+enum status ground_truth_create(const struct scene *scene, struct picture_settings settings,
+                                enum truth_kind kind, const struct truth_effort *effort,
+                                struct progress *progress, double share, struct ground_truth *truth);
 
-/* The finest grid over the packed scene's picture that is about so much work. */
-enum status grid_of_work(const struct packed_scene *packed, double work, struct pixel_grid *grid);
+/* How far a picture is from the truth, at the truth's pixels. Infinite where a value is not finite. A pixel's
+ * error is the largest over its channels; a relative error is |value - truth| / max(|truth|, 1e-3). */
+struct bench_error {
+    double max, rmse;        /* over all channel values, linear radiance */
+    double rmse_uncertainty; /* standard error of rmse, were the pixels drawn at random */
+    double absolute_999;     /* 99.9 % of the pixels are within it */
+    double relative_median, relative_999;
+    size_t pixels_off_8bit; /* with a channel off by more than one step of 8-bit sRGB */
+};
+
+/* The picture is whole: the truth's grid is one over it. STATUS_UNABLE (reported) without memory. */
+enum status bench_error_measure(const struct image *image, const struct ground_truth *truth,
+                                struct bench_error *error);
 
 #endif

@@ -1,7 +1,7 @@
 #ifndef VKWHITTED_BENCH_MEASURE_H
 #define VKWHITTED_BENCH_MEASURE_H
 
-#include "bench/error.h"
+#include "bench/ground_truth.h"
 #include "bench/settings.h"
 
 enum { BENCH_MAX_RUNS = 51 };

@@ -25,18 +25,25 @@ static inline size_t pixel_grid_place(const struct pixel_grid *grid, size_t pixe
     return y * picture_width + x;
 }
 
-/* What the reference makes of the grid's pixels, row by row. */
+/* What the reference makes of a grid's pixels, row by row. */
 struct grid_pixels {
-    double *rgb;                                /* 3 a pixel */
-    uint32_t *signatures;                       /* NULL: not wanted */
-    struct reference_explanation *explanations; /* in quad, instead of all others; NULL: not wanted */
-    struct reference_rays rays;                 /* added to */
+    struct pixel_grid grid;
+    double *rgb; /* 3 a pixel */
+    uint32_t *signatures;
+    struct reference_explanation *explanations; /* instead of both others */
+    struct reference_rays rays;
 };
 
-/* Renders the grid's pixels with the reference on all processors. Advances progress, if not NULL, by `share`
- * in all. STATUS_INTERRUPTED after Ctrl-C. */
-enum status pixel_grid_render(const struct packed_scene *scene, enum precision precision,
-                              const struct pixel_grid *grid, struct grid_pixels *pixels,
-                              struct progress *progress, double share);
+enum grid_output { GRID_FLOAT, GRID_DOUBLE, GRID_QUAD, GRID_EXPLAINED_QUAD };
+
+/* Renders pixels of the picture with the reference on all processors: the finest grid that is about so much
+ * work, in rays times objects. Advances progress by `share` in all. On STATUS_DONE the caller frees the
+ * pixels; otherwise they are empty, and the reason is reported, except for STATUS_INTERRUPTED. */
+enum status grid_render(const struct packed_scene *scene, enum grid_output output, double work,
+                        struct progress *progress, double share, struct grid_pixels *pixels);
+void grid_pixels_destroy(struct grid_pixels *pixels);
+
+/* Counts the rays of some of the picture's pixels, with one sample of everything. */
+enum status grid_count_rays(const struct packed_scene *scene, struct reference_rays *rays, double *pixels);
 
 #endif

@@ -50,35 +50,23 @@ struct bench {
 /* The reference's float picture against the exact one, with the error analysis. */
 static enum status judge_rounding(struct bench *bench)
 {
-    const struct packed_scene *packed = &bench->packed;
-    struct pixel_grid grid;
+    const double work = bench->effort->truth.explained;
+    struct grid_pixels of_float, exact = {0};
     struct image image = {0};
-    enum status status = grid_of_work(packed, bench->effort->truth.explained, &grid);
-    if (status == STATUS_DONE)
-        status = image_create(grid.columns, grid.rows, &image);
+    enum status status = grid_render(&bench->packed, GRID_FLOAT, work, &bench->progress, 0, &of_float);
     if (status != STATUS_DONE)
         return status;
-    size_t count = bench->result.rounding_pixels = pixel_grid_count(&grid);
-    struct grid_pixels of_float = {.rgb = calloc(count, 3 * sizeof(double)),
-                                   .signatures = calloc(count, sizeof(uint32_t))};
-    struct grid_pixels exact = {.rgb = of_float.rgb,
-                                .explanations = calloc(count, sizeof *exact.explanations)};
-    if (!of_float.rgb || !of_float.signatures || !exact.explanations) {
-        log_error("no memory to judge %zu pixels", count);
-        status = STATUS_UNABLE;
-    }
+    status = image_create(of_float.grid.columns, of_float.grid.rows, &image);
+    size_t count = bench->result.rounding_pixels = pixel_grid_count(&of_float.grid);
+    for (size_t i = 0; status == STATUS_DONE && i < 3 * count; ++i)
+        image.rgb[i] = (float)of_float.rgb[i];
     if (status == STATUS_DONE)
-        status = pixel_grid_render(packed, PRECISION_FLOAT, &grid, &of_float, NULL, 0);
-    if (status == STATUS_DONE) {
-        for (size_t i = 0; i < 3 * count; ++i)
-            image.rgb[i] = (float)of_float.rgb[i];
-        status = pixel_grid_render(packed, PRECISION_QUAD, &grid, &exact, &bench->progress, ROUNDING_SHARE);
-    }
+        status =
+            grid_render(&bench->packed, GRID_EXPLAINED_QUAD, work, &bench->progress, ROUNDING_SHARE, &exact);
     if (status == STATUS_DONE)
         status = judge_picture(&image, of_float.signatures, exact.explanations, &bench->result.rounding);
-    free(of_float.rgb);
-    free(of_float.signatures);
-    free(exact.explanations);
+    grid_pixels_destroy(&of_float);
+    grid_pixels_destroy(&exact);
     image_destroy(&image);
     return status == STATUS_DIFFERS ? STATUS_DONE : status; /* the result says so */
 }
@@ -90,7 +78,7 @@ static enum status compare_backends(struct bench *bench)
     struct render_plan plan = {
         .scene = &bench->packed, .window = {0, 0, picture->width, picture->height}, .quiet = true};
     struct rendering reference, device = {0};
-    struct comparison comparison;
+    struct comparison comparison = {0};
     enum status status = render_on_cpu(&plan, &reference);
     if (status != STATUS_DONE)
         return status;
@@ -110,23 +98,16 @@ static enum status compare_backends(struct bench *bench)
     return status;
 }
 
-/* Whether the setting takes too long, by the one before it: in a family times are in proportion to samples.
- */
-static enum status foresee(struct bench *bench, const struct bench_setting *setting, bool *too_long)
+/* Whether the setting takes too long, by the last one of its family: times are in proportion to samples. */
+static bool takes_too_long(const struct bench *bench, const struct bench_setting *setting)
 {
     const struct bench_result *result = &bench->result;
-    struct bench_point *before = result->count > 0 ? &result->points[result->count - 1] : NULL;
-    *too_long = false;
-    if (!before || before->setting.family != setting->family || before->setting.fast != setting->fast)
-        return STATUS_DONE;
-    const struct picture_settings *now = &setting->picture, *then = &before->setting.picture;
+    const struct bench_point *last = result->count > 0 ? &result->points[result->count - 1] : NULL;
+    if (!last || last->setting.family != setting->family)
+        return false;
+    const struct picture_settings *now = &setting->picture, *then = &last->setting.picture;
     double more = (double)now->samples / then->samples * now->light_samples / then->light_samples;
-    double longest = bench->effort->longest_run_ms, warm_ms = 0;
-    if (more <= 1 || before->first_ms * more <= longest)
-        return STATUS_DONE;
-    enum status status = bench_point_run(before, &bench->image, &warm_ms);
-    *too_long = warm_ms * more > longest;
-    return status;
+    return more > 1 && last->first_ms * more > bench->effort->longest_run_ms;
 }
 
 /* Readies a setting, and measures its error by its first picture. What the device cannot do is left out. */
@@ -149,21 +130,15 @@ static enum status start_point(struct bench *bench, const struct bench_setting *
 
 static enum status start_points(struct bench *bench, const struct bench_setting *settings, size_t count)
 {
-    const struct bench_setting *skipped = NULL; /* with it the rest of its family */
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < count && status == STATUS_DONE; ++i) {
-        const struct bench_setting *setting = &settings[i];
-        bool too_long;
-        if (skipped && setting->family == skipped->family && setting->fast == skipped->fast)
-            continue;
-        if (setting->family >= FAMILY_MAX_ERROR && clock_ms() - bench->start_ms > bench->effort->whole_ms) {
+        bool late = clock_ms() - bench->start_ms > bench->effort->whole_ms;
+        if (late && settings[i].family >= FAMILY_MAX_ERROR) {
             log_warning("%s: no time for %zu of %zu settings", bench->result.path, count - i, count);
             break;
         }
-        status = foresee(bench, setting, &too_long);
-        skipped = too_long ? setting : NULL;
-        if (status == STATUS_DONE && !too_long)
-            status = start_point(bench, setting);
+        if (!takes_too_long(bench, &settings[i]))
+            status = start_point(bench, &settings[i]);
         progress_advance(&bench->progress, START_SHARE / count);
     }
     return status;
@@ -227,11 +202,11 @@ static enum status run(struct bench *bench)
         status = ground_truth_bounces(&bench->packed, &bench->choice.deepest);
     deep.max_bounces = bench->choice.deepest;
     if (status == STATUS_DONE)
-        status = ground_truth_create(&bench->scene, deep, result->sampled, effort, &bench->progress,
-                                     TRUTH_SHARE, &result->truth);
+        status = ground_truth_create(&bench->scene, deep, result->sampled ? TRUTH_OF_LIGHTS : TRUTH_EXACT,
+                                     effort, &bench->progress, TRUTH_SHARE, &result->truth);
     if (status == STATUS_DONE)
-        status = ground_truth_create_filtered(&bench->scene, result->picture, effort, &bench->progress,
-                                              FILTERED_SHARE, &result->filtered);
+        status = ground_truth_create(&bench->scene, result->picture, TRUTH_OF_SAMPLES, effort,
+                                     &bench->progress, FILTERED_SHARE, &result->filtered);
     if (status == STATUS_DONE)
         status = judge_rounding(bench);
     if (status == STATUS_DONE)
@@ -278,8 +253,8 @@ enum status bench_scene(const struct bench_options *options, struct vulkan_conte
     free(bench.result.points);
     json_decref(bench.pictures);
     image_destroy(&bench.image);
-    ground_truth_destroy(&bench.result.truth);
-    ground_truth_destroy(&bench.result.filtered);
+    grid_pixels_destroy(&bench.result.truth.pixels);
+    grid_pixels_destroy(&bench.result.filtered.pixels);
     pack_destroy(&bench.packed);
     scene_destroy(&bench.scene);
     return status;
