@@ -21,7 +21,7 @@ set ylabel "time, ms"
 stats ARG1 using (column("error_absolute_999")) name "error" nooutput
 stats ARG1 using (column("time_ms")) name "time" nooutput
 seen = ""
-stats ARG1 using (scene = strcol("scene"), seen = seen.strcol("family")." ".strcol("mode").";", 0) nooutput
+stats ARG1 using (scene = strcol("scene"), seen = seen.";".strcol("family")." ".strcol("mode").";", 0) nooutput
 set title scene noenhanced
 
 # An error of 0 has no logarithm: it stands at the left edge.
@@ -40,8 +40,8 @@ array color[6]  = ["#222222", "#0072b2", "#d55e00", "#009e73", "#b4508c", "#7777
 array shape[6]  = [7, 5, 9, 11, 13, 2]
 exact = fast = "" # the numbers of the families that have such settings
 do for [i = 1:6] {
-    if (strstrt(seen, family[i]." exact;")) { exact = exact." ".i }
-    if (strstrt(seen, family[i]." fast;")) { fast = fast." ".i }
+    if (strstrt(seen, ";".family[i]." exact;")) { exact = exact." ".i }
+    if (strstrt(seen, ";".family[i]." fast;")) { fast = fast." ".i }
 }
 
 is(i, mode) = strcol("family") eq family[i + 0] && strcol("mode") eq mode
@@ -50,9 +50,10 @@ error_on_front(filtered) = column("pareto") == 1 && (strcol("family") eq "sample
 error_of(i, mode) = is(i, mode) ? shown(column("error_absolute_999")) : NaN
 
 # Labels of the front: those of bounces below to the left, the others above to the right, none upon another.
-last_x = last_y = 1e-300
-is_far(x, y) = abs(log(x / last_x)) > 0.12 * width || abs(log(y / last_y)) > 0.04 * height
-put(x, y) = is_far(x, y) ? (last_x = x, last_y = y, x) : NaN
+taken_x = taken_y = ""
+is_near(x, y, i) = abs(log(x / word(taken_x, i))) < 0.15 * width && abs(log(y / word(taken_y, i))) < 0.05 * height
+is_free(x, y) = (sum [i = 1:words(taken_x)] is_near(x, y, i)) == 0
+put(x, y) = is_free(x, y) ? (taken_x = taken_x.sprintf(" %g", x), taken_y = taken_y.sprintf(" %g", y), x) : NaN
 side(family) = family eq "bounces" ? -1 : 1
 label_error(unused) = column("pareto") == 1 ? put(shown(column("error_absolute_999")), column("time_ms")) : NaN
 

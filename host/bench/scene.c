@@ -98,16 +98,23 @@ static enum status compare_backends(struct bench *bench)
     return status;
 }
 
-/* Whether the setting takes too long, by the last one of its family: times are in proportion to samples. */
-static bool takes_too_long(const struct bench *bench, const struct bench_setting *setting)
+/* Whether the setting takes too long, by the last one of its family: times are in proportion to samples. That
+ * one is run warm if its first run, which compiles, does not tell. */
+static enum status foresee(struct bench *bench, const struct bench_setting *setting, bool *too_long)
 {
     const struct bench_result *result = &bench->result;
-    const struct bench_point *last = result->count > 0 ? &result->points[result->count - 1] : NULL;
+    struct bench_point *last = result->count > 0 ? &result->points[result->count - 1] : NULL;
+    *too_long = false;
     if (!last || last->setting.family != setting->family)
-        return false;
+        return STATUS_DONE;
     const struct picture_settings *now = &setting->picture, *then = &last->setting.picture;
     double more = (double)now->samples / then->samples * now->light_samples / then->light_samples;
-    return more > 1 && last->first_ms * more > bench->effort->longest_run_ms;
+    double longest_ms = bench->effort->longest_run_ms / more, warm_ms = 0;
+    if (more <= 1 || last->first_ms <= longest_ms)
+        return STATUS_DONE;
+    enum status status = bench_point_run(last, &bench->image, &warm_ms);
+    *too_long = warm_ms > longest_ms;
+    return status;
 }
 
 /* Readies a setting, and measures its error by its first picture. What the device cannot do is left out. */
@@ -137,7 +144,9 @@ static enum status start_points(struct bench *bench, const struct bench_setting 
             log_warning("%s: no time for %zu of %zu settings", bench->result.path, count - i, count);
             break;
         }
-        if (!takes_too_long(bench, &settings[i]))
+        bool too_long;
+        status = foresee(bench, &settings[i], &too_long);
+        if (status == STATUS_DONE && !too_long)
             status = start_point(bench, &settings[i]);
         progress_advance(&bench->progress, START_SHARE / count);
     }

@@ -59,7 +59,7 @@ chart() {
     expect 0 gnuplot -c "$SOURCE_DIR/host/bench/chart.gp" a.csv a.svg
     [ ! -s err ] || fail 'warnings'
     only_files a.csv a.svg
-    for text in 'time, ms' 'Pareto front' 'open: fast' '1 sample' "$figure"; do
+    for text in 'time, ms' 'Pareto front' 'open: fast' 'samples a pixel' "$figure"; do
         grep -Fq ">$text<" a.svg || fail "no $text in the chart"
     done
 }
