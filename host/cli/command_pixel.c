@@ -1,4 +1,4 @@
-#include "cli/command_pixel.h"
+#include "cli/options.h"
 
 #include "base/json.h"
 #include "base/output_file.h"
