@@ -119,13 +119,13 @@ static void put_field(struct output_file *file, const json_t *value)
 /* The fields of a value, or with names_only their names: those of an object's or array's elements are its own
  * and theirs, as in error_rmse. Each field but the first of a line, which is the scene, has a comma before
  * it. */
-static void put_fields(struct output_file *file, const char *name, const json_t *value, bool names_only)
+static void put_fields(struct output_file *file, const char *name, json_t *value, bool names_only)
 {
     char longer[100];
     const char *key;
     json_t *element;
     size_t i;
-    json_object_foreach((json_t *)(uintptr_t)value, key, element)
+    json_object_foreach(value, key, element)
     {
         snprintf(longer, sizeof longer, "%s%s%s", name, *name ? "_" : "", key);
         put_fields(file, longer, element, names_only);
@@ -146,9 +146,8 @@ static void put_fields(struct output_file *file, const char *name, const json_t 
 
 enum status bench_csv_write(const json_t *document, const char *path)
 {
-    const json_t *scene, *point;
+    json_t *scene, *point;
     size_t s, p;
-    bool named = false;
     struct output_file file;
     enum status status = output_file_open(path, &file);
     if (status != STATUS_DONE)
@@ -156,11 +155,10 @@ enum status bench_csv_write(const json_t *document, const char *path)
     json_array_foreach(json_object_get(document, "scenes"), s, scene)
         json_array_foreach(json_object_get(scene, "points"), p, point)
     {
-        if (!named) {
+        if (s == 0 && p == 0) {
             put(&file, "scene");
             put_fields(&file, "", point, true);
             put(&file, "\r\n");
-            named = true;
         }
         put_field(&file, json_object_get(scene, "scene"));
         put_fields(&file, "", point, false);
