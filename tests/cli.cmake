@@ -76,7 +76,7 @@ add_cli_tests(output formats same_bits_on_both_backends exr_metadata transfer un
 add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer loops_ended_early
               devices)
 add_cli_tests(check agreement difference tolerance allow heatmap json worst_status)
-add_cli_tests(bench files without_device report compare bad_comparison options interrupted)
+add_cli_tests(bench files without_device report chart compare bad_comparison options interrupted)
 set_tests_properties(cli/bench/files cli/bench/compare PROPERTIES TIMEOUT 400)
 add_cli_tests(pixel agreement samples max_bounces max_error broken_k_r broken_shadow broken_normal broken_total
               broken_term broken_picture against json light_samples place options)

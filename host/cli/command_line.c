@@ -134,7 +134,6 @@ static enum status check_consistency(const struct options *options)
         {against && options->job.has_max_error,
          "--max-error does not go with --against, which judges rounding alone"},
         {options->heatmap && scenes > 1, "--heatmap takes one scene file"},
-        {options->chart && scenes > 1, "--chart takes one scene file"},
         {options->heatmap && !(suffix && strcasecmp(suffix, ".png") == 0), "--heatmap writes a .png"},
     };
     for (size_t i = 0; i < sizeof rules / sizeof *rules; ++i)
@@ -148,8 +147,8 @@ static enum status check_consistency(const struct options *options)
 /* Whether all outputs can be written, before anything is computed. */
 static enum status check_outputs(const struct options *options)
 {
-    const char *const paths[] = {options->stats,  options->json,  options->heatmap,
-                                 options->report, options->chart, options->csv};
+    const char *const paths[] = {options->stats, options->json, options->heatmap, options->report,
+                                 options->csv};
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
         status = image_write_check(options->outputs[i]);

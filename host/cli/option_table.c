@@ -196,7 +196,6 @@ const struct option_entry option_table[] = {
 
     {"quick", "", BENCH, FLAG(quick), "fewer settings and runs: half a minute a scene"},
     {"report", "", BENCH, TEXT("FILE.html", report), "all of it on one page, with charts"},
-    {"chart", "", BENCH, TEXT("FILE.svg", chart), "speed against error of one scene"},
     {"csv", "", BENCH, TEXT("FILE", csv), "the measurements, one a line"},
     {"compare", "", BENCH, TEXT("OLD.json", compare),
      "what became faster, slower or less accurate beyond noise since\n"

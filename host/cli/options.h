@@ -27,7 +27,7 @@ struct options {
     enum precision
         against; /* float: against the reference, bit for bit; otherwise against the exact picture */
     const char *stats, *json, *heatmap;
-    const char *csv, *report, *chart, *compare; /* bench; compare is the JSON file of an earlier one */
+    const char *csv, *report, *compare; /* bench; compare is the JSON file of an earlier one */
     bool quick;
     unsigned x, y;       /* of pixel */
     const char *shaders; /* folder; NULL: the one that came with the program */
