@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-#include "scene/text.h"
+#include "scene/scene.h"
 #include "test_folder.h"
 #include "test_render.h"
 

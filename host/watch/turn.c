@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "scene/text.h"
+#include "scene/scene.h"
 
 /* Says that the picture on show is not what the files say. */
 static void tell_failure(struct watching *watching, const char *what, const char *details,
