@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "check/compare.h"
+#include "check/heatmap.h"
 #include "image/file.h"
 
 /* RFC 4648. NULL without memory. */
