@@ -120,7 +120,7 @@ static size_t check_bounds(const char *name, const struct ray_tree *device, cons
             ++at;
         const struct reference_event *event = &exact->events[i];
         assert_memory_equal(&device->events[at].head, &event->head, sizeof event->head);
-        for (const struct event_field *field = event_kind(event)->fields; field->name; ++field)
+        for (const struct event_field *field = NULL; (field = event_next_field(event, field));)
             for (int c = 0; field->type == FIELD_VALUE && !field->not_analysed && c < field->count; ++c) {
                 double error = event_value(&device->events[at], field, c) - event_value(event, field, c);
                 ++checked;

@@ -15,60 +15,55 @@ static const char *const shines[MOST_EVENT_NAMES] = {
     [LIGHT_SHADOW_RAY] = "shadow ray",
 };
 
-static const struct event_kind kinds[EVENT_KINDS] = {
-    [EVENT_RAY] = {"ray",
-                   {
-                       {"leaves", FIELD_OBJECT, 0, 1, .shown = SHOWN_IF_DIFFERENT},
-                       {"inward", FIELD_FLAG, 1, 1, .shown = SHOWN_IF_DIFFERENT},
-                       {"origin", FIELD_VALUE, 0, 3, .metres = 1},
-                       {"direction", FIELD_VALUE, 3, 3, .shown = SHOWN},
-                       {"weight", FIELD_VALUE, 6, 1, .shown = SHOWN},
-                   }},
-    [EVENT_HIT] = {"hit",
-                   {
-                       {"meets", FIELD_OBJECT, 0, 1, .shown = SHOWN},
-                       {"from_inside", FIELD_FLAG, 1, 1, .shown = SHOWN_IF_FOLLOWED},
-                       {"distance", FIELD_VALUE, 6, 1, .metres = 1, .shown = SHOWN_IF_FOLLOWED},
-                       {"normal", FIELD_VALUE, 0, 3, .shown = SHOWN_IF_FOLLOWED},
-                       {"point", FIELD_VALUE, 3, 3, .metres = 1, .shown = SHOWN_IF_FOLLOWED},
-                   }},
-    [EVENT_SPLIT] = {"split",
-                     {
-                         {"cos_in", FIELD_VALUE, 3, 1, .shown = SHOWN},
-                         {"total_reflection", FIELD_FLAG, 0, 1, .shown = SHOWN},
-                         {"k_r", FIELD_VALUE, 4, 1, .shown = SHOWN_IF_FOLLOWED},
-                         {"refracted", FIELD_VALUE, 0, 3, .shown = SHOWN_IF_FOLLOWED},
-                     }},
-    [EVENT_UNTRACED] = {"untraced",
-                        {
-                            {"why", FIELD_NUMBER, 0, 1, .shown = SHOWN_IF_DIFFERENT, .names = untraced},
-                            {"weight", FIELD_VALUE, 0, 1, .shown = SHOWN},
-                            {"charge", FIELD_VALUE, 1, 1, .not_analysed = true},
-                        }},
-    [EVENT_LIGHT] = {"light",
-                     {
-                         {"light", FIELD_NUMBER, 0, 1, .shown = SHOWN_IF_DIFFERENT},
-                         {"light_sample", FIELD_NUMBER, 1, 1, .shown = SHOWN_IF_DIFFERENT},
-                         {"light_point", FIELD_VALUE, 0, 3, .metres = 1},
-                         {"distance", FIELD_VALUE, 3, 1, .metres = 1, .shown = SHOWN_IF_FOLLOWED},
-                         {"cos_in", FIELD_VALUE, 4, 1, .shown = SHOWN},
-                         {"shines", FIELD_NUMBER, 2, 1, .names = shines},
-                         {"shadow", FIELD_OBJECT, 3, 1, .shown = SHOWN_IF_FOLLOWED},
-                         {"received", FIELD_VALUE, 5, 1, .metres = -2, .shown = SHOWN_IF_FOLLOWED},
-                         {"area", FIELD_VALUE, 6, 1, .metres = 2, .shown = SHOWN_OF_QUADS},
-                     }},
-    [EVENT_LEAF] = {"leaf",
-                    {{"sees", FIELD_VALUE, 0, 3, .shown = SHOWN},
-                     {"adds", FIELD_VALUE, 3, 3, .shown = SHOWN}}},
-    [EVENT_SAMPLE] = {"sample",
-                      {{"sum", FIELD_VALUE, 0, 3, .shown = SHOWN},
-                       {"charge", FIELD_VALUE, 6, 1, .not_analysed = true}}},
-    [EVENT_PIXEL] = {"pixel", {{"radiance", FIELD_VALUE, 0, 3, .shown = SHOWN}}},
+static const struct event_field fields[] = {
+    {EVENT_RAY, "leaves", FIELD_OBJECT, 0, 1, .shown = SHOWN_IF_DIFFERENT},
+    {EVENT_RAY, "inward", FIELD_FLAG, 1, 1, .shown = SHOWN_IF_DIFFERENT},
+    {EVENT_RAY, "origin", FIELD_VALUE, 0, 3, .metres = 1},
+    {EVENT_RAY, "direction", FIELD_VALUE, 3, 3, .shown = SHOWN},
+    {EVENT_RAY, "weight", FIELD_VALUE, 6, 1, .shown = SHOWN},
+    {EVENT_HIT, "meets", FIELD_OBJECT, 0, 1, .shown = SHOWN},
+    {EVENT_HIT, "from_inside", FIELD_FLAG, 1, 1, .shown = SHOWN_IF_FOLLOWED},
+    {EVENT_HIT, "distance", FIELD_VALUE, 6, 1, .metres = 1, .shown = SHOWN_IF_FOLLOWED},
+    {EVENT_HIT, "normal", FIELD_VALUE, 0, 3, .shown = SHOWN_IF_FOLLOWED},
+    {EVENT_HIT, "point", FIELD_VALUE, 3, 3, .metres = 1, .shown = SHOWN_IF_FOLLOWED},
+    {EVENT_SPLIT, "cos_in", FIELD_VALUE, 3, 1, .shown = SHOWN},
+    {EVENT_SPLIT, "total_reflection", FIELD_FLAG, 0, 1, .shown = SHOWN},
+    {EVENT_SPLIT, "k_r", FIELD_VALUE, 4, 1, .shown = SHOWN_IF_FOLLOWED},
+    {EVENT_SPLIT, "refracted", FIELD_VALUE, 0, 3, .shown = SHOWN_IF_FOLLOWED},
+    {EVENT_UNTRACED, "why", FIELD_NUMBER, 0, 1, .shown = SHOWN_IF_DIFFERENT, .names = untraced},
+    {EVENT_UNTRACED, "weight", FIELD_VALUE, 0, 1, .shown = SHOWN},
+    {EVENT_UNTRACED, "charge", FIELD_VALUE, 1, 1, .not_analysed = true},
+    {EVENT_LIGHT, "light", FIELD_NUMBER, 0, 1, .shown = SHOWN_IF_DIFFERENT},
+    {EVENT_LIGHT, "light_sample", FIELD_NUMBER, 1, 1, .shown = SHOWN_IF_DIFFERENT},
+    {EVENT_LIGHT, "light_point", FIELD_VALUE, 0, 3, .metres = 1},
+    {EVENT_LIGHT, "distance", FIELD_VALUE, 3, 1, .metres = 1, .shown = SHOWN_IF_FOLLOWED},
+    {EVENT_LIGHT, "cos_in", FIELD_VALUE, 4, 1, .shown = SHOWN},
+    {EVENT_LIGHT, "shines", FIELD_NUMBER, 2, 1, .names = shines},
+    {EVENT_LIGHT, "shadow", FIELD_OBJECT, 3, 1, .shown = SHOWN_IF_FOLLOWED},
+    {EVENT_LIGHT, "received", FIELD_VALUE, 5, 1, .metres = -2, .shown = SHOWN_IF_FOLLOWED},
+    {EVENT_LIGHT, "area", FIELD_VALUE, 6, 1, .metres = 2, .shown = SHOWN_OF_QUADS},
+    {EVENT_LEAF, "sees", FIELD_VALUE, 0, 3, .shown = SHOWN},
+    {EVENT_LEAF, "adds", FIELD_VALUE, 3, 3, .shown = SHOWN},
+    {EVENT_SAMPLE, "sum", FIELD_VALUE, 0, 3, .shown = SHOWN},
+    {EVENT_SAMPLE, "charge", FIELD_VALUE, 6, 1, .not_analysed = true},
+    {EVENT_PIXEL, "radiance", FIELD_VALUE, 0, 3, .shown = SHOWN},
 };
 
-const struct event_kind *event_kind(const struct reference_event *event)
+const struct event_field *event_next_field(const struct reference_event *event,
+                                           const struct event_field *field)
 {
-    return &kinds[event->head.place.EVENT_KIND];
+    const struct event_field *end = fields + sizeof fields / sizeof *fields;
+    field = field ? field + 1 : fields;
+    while (field < end && field->kind != event->head.place.EVENT_KIND)
+        ++field;
+    return field < end ? field : NULL;
+}
+
+const char *event_name(const struct reference_event *event)
+{
+    static const char *const names[EVENT_KINDS] = {"ray",   "hit",  "split",  "untraced",
+                                                   "light", "leaf", "sample", "pixel"};
+    return names[event->head.place.EVENT_KIND];
 }
 
 bool event_is_followed(const struct reference_event *event)
@@ -117,7 +112,7 @@ struct event_difference ray_trees_compare(const struct ray_tree *device, const s
         if (memcmp(&a->head.place, &b->head.place, sizeof a->head.place) != 0)
             return (struct event_difference){.differs = true, .event = i};
         int component;
-        for (const struct event_field *field = event_kind(a)->fields; field->name; ++field)
+        for (const struct event_field *field = NULL; (field = event_next_field(a, field));)
             if (!event_field_agrees(field, a, b, &component))
                 return (struct event_difference){true, i, field, component};
     }

@@ -24,7 +24,8 @@ enum event_field_shown {
 enum { MOST_EVENT_NAMES = 4 };
 
 struct event_field {
-    const char *name; /* NULL ends the list */
+    int kind; /* of event */
+    const char *name;
     enum event_field_type type;
     int first, count; /* of the values or facts */
     int metres;       /* power of a length that the values are */
@@ -33,12 +34,12 @@ struct event_field {
     bool not_analysed;        /* by the tracers of higher precision */
 };
 
-struct event_kind {
-    const char *name;
-    struct event_field fields[10];
-};
+/* The field of the event that follows this one, or its first for NULL; NULL where there is no other. */
+const struct event_field *event_next_field(const struct reference_event *event,
+                                           const struct event_field *field);
 
-const struct event_kind *event_kind(const struct reference_event *event);
+/* What the event's kind is called. */
+const char *event_name(const struct reference_event *event);
 
 /* The ray has met something, is refracted, or looks for what stands before a light. */
 bool event_is_followed(const struct reference_event *event);

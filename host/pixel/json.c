@@ -38,7 +38,7 @@ static json_t *field_json(const struct pixel_trace *trace, const struct event_fi
 static json_t *event_json(const struct pixel_trace *trace, const struct reference_event *event)
 {
     json_t *object = json_object();
-    for (const struct event_field *field = event_kind(event)->fields; field->name; ++field)
+    for (const struct event_field *field = NULL; (field = event_next_field(event, field));)
         object = with(object, field->name, field_json(trace, field, event, event->values));
     return object;
 }
@@ -51,7 +51,7 @@ static json_t *exact_json(const struct pixel_trace *trace, const struct step *st
     double error[EVENT_VALUES];
     for (int i = 0; i < EVENT_VALUES; ++i)
         error[i] = step->device->values[i] - exact->values[i];
-    for (const struct event_field *field = event_kind(exact)->fields; field->name; ++field)
+    for (const struct event_field *field = NULL; (field = event_next_field(exact, field));)
         if (field->type == FIELD_VALUE && !field->not_analysed) {
             errors = with(errors, field->name, field_json(trace, field, exact, error));
             bounds = with(bounds, field->name, field_json(trace, field, exact, exact->bounds));
@@ -65,7 +65,7 @@ static json_t *step_json(const struct pixel_trace *trace, const struct step *ste
     const struct reference_event *event = step->device ? step->device : step->reference;
     const layout_ivec4 place = event->head.place;
     json_t *object =
-        json_pack("{s:s, s:i, s:I, s:i}", "step", event_kind(event)->name, "sample", place.EVENT_OF_SAMPLE,
+        json_pack("{s:s, s:i, s:I, s:i}", "step", event_name(event), "sample", place.EVENT_OF_SAMPLE,
                   "branch", (json_int_t)(uint32_t)place.EVENT_BRANCH, "bounces", place.EVENT_BOUNCES);
     if (step->device)
         object = with(object, "device", event_json(trace, step->device));

@@ -92,7 +92,7 @@ static void print_first_difference(struct walk *walk)
         fputs(i == 0 ? ", device " : ", reference ", stdout);
         const struct reference_event *event = &sides[i]->events[difference->event];
         if (!field) {
-            fputs(difference->event < sides[i]->count ? event_kind(event)->name : "has ended", stdout);
+            fputs(difference->event < sides[i]->count ? event_name(event) : "has ended", stdout);
             continue;
         }
         char bits[BITS_TEXT];
@@ -160,7 +160,7 @@ static void print_fields(struct walk *walk, const struct step *step)
 {
     struct step shown = *step;
     const layout_ivec4 place = step->device->head.place;
-    for (const struct event_field *field = event_kind(step->device)->fields; field->name; ++field) {
+    for (const struct event_field *field = NULL; (field = event_next_field(step->device, field));) {
         if (is_shown(walk, &shown, field))
             print_field(walk, &shown, field);
         if (place.EVENT_KIND == EVENT_HIT && field->type == FIELD_OBJECT && shown.exact &&
@@ -228,7 +228,7 @@ static void print_step(struct walk *walk, const struct step *step)
         break;
     case EVENT_UNTRACED:
         printf("%*s", walk->indent, "");
-        print_value(walk->trace, event_kind(event)->fields, facts.EVENT_REASON);
+        print_value(walk->trace, event_next_field(event, NULL), facts.EVENT_REASON);
         putchar('\n');
         break;
     case EVENT_LIGHT:
@@ -264,8 +264,8 @@ static struct step step_at(struct walk *walk, size_t i)
 
 static bool differs(const struct step *step)
 {
-    for (const struct event_field *field = event_kind(step->device)->fields; step->reference && field->name;
-         ++field)
+    const struct event_field *field = NULL;
+    while (step->reference && (field = event_next_field(step->device, field)))
         if (!event_field_agrees(field, step->device, step->reference, NULL))
             return true;
     return false;

@@ -5,6 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { DEVICE, REFERENCE, EXACT, SIDES };
+
+/* An event, whose it is and its place in that tree. */
+struct entry {
+    const struct reference_event *event;
+    int side;
+    size_t place;
+};
+
 /* Orders events by the step they tell of: its ray, its kind and, where a ray has several of that, its facts.
  */
 static int compare_steps(const struct reference_event *a, const struct reference_event *b)
@@ -19,12 +28,12 @@ static int compare_steps(const struct reference_event *a, const struct reference
     return 0;
 }
 
-/* The same for pointers; equal ones by their order in the tree. */
-static int compare_pointers(const void *a, const void *b)
+/* So too, then by place: branches wrap around after 32 bounces, and steps may share all of the above. */
+static int compare_entries(const void *a, const void *b)
 {
-    const struct reference_event *const *p = a, *const *q = b;
-    int order = compare_steps(*p, *q);
-    return order ? order : (*p > *q) - (*p < *q);
+    const struct entry *p = a, *q = b;
+    const int order = compare_steps(p->event, q->event);
+    return order ? order : (p->place > q->place) - (p->place < q->place);
 }
 
 static int compare_references(const void *a, const void *b)
@@ -33,57 +42,37 @@ static int compare_references(const void *a, const void *b)
     return (p->reference > q->reference) - (p->reference < q->reference);
 }
 
-enum { SIDES = 3 };
-
-/* Takes what tells of the same step from all sides, whose events are sorted. */
-static void join_sides(const struct reference_event **sorted[SIDES], const size_t counts[SIDES],
-                       struct pixel_trace *trace)
+static enum status find_steps(struct pixel_trace *trace)
 {
-    size_t at[SIDES] = {0};
-    for (;;) {
-        const struct reference_event *first = NULL, *same[SIDES] = {NULL};
-        for (int side = 0; side < SIDES; ++side)
-            if (at[side] < counts[side] && (!first || compare_steps(sorted[side][at[side]], first) < 0))
-                first = sorted[side][at[side]];
-        if (!first)
-            return;
-        for (int side = 0; side < SIDES; ++side)
-            if (at[side] < counts[side] && compare_steps(sorted[side][at[side]], first) == 0)
-                same[side] = sorted[side][at[side]++];
-        const struct step step = {same[0], same[1], same[2]};
+    const struct ray_tree *trees[SIDES] = {&trace->device, &trace->reference, &trace->exact};
+    const size_t total = trace->device.count + trace->reference.count + trace->exact.count;
+    struct entry *entries = calloc(total + 1, sizeof *entries), *end = entries;
+    trace->steps = calloc(total + 1, sizeof *trace->steps);
+    trace->step_count = trace->device.count;
+    if (!entries || !trace->steps) {
+        log_error("no memory for %zu events", total);
+        free(entries);
+        return STATUS_UNABLE;
+    }
+    for (int side = 0; side < SIDES; ++side)
+        for (size_t i = 0; i < trees[side]->count; ++i)
+            *end++ = (struct entry){&trees[side]->events[i], side, i};
+    qsort(entries, total, sizeof *entries, compare_entries);
+    for (const struct entry *entry = entries, *first; entry < end;) {
+        const struct reference_event *same[SIDES] = {NULL};
+        for (first = entry; entry < end && !same[entry->side] && !compare_steps(entry->event, first->event);
+             ++entry)
+            same[entry->side] = entry->event;
+        const struct step step = {same[DEVICE], same[REFERENCE], same[EXACT]};
         if (step.device)
             trace->steps[step.device - trace->device.events] = step;
         else if (step.reference)
             trace->steps[trace->step_count++] = step;
     }
-}
-
-static enum status find_steps(struct pixel_trace *trace)
-{
-    const struct ray_tree *trees[SIDES] = {&trace->device, &trace->reference, &trace->exact};
-    const size_t counts[SIDES] = {trees[0]->count, trees[1]->count, trees[2]->count};
-    const struct reference_event **sorted[SIDES];
-    trace->step_count = counts[0];
-    trace->steps = calloc(counts[0] + counts[1] + 1, sizeof *trace->steps);
-    bool complete = trace->steps;
-    for (int side = 0; side < SIDES; ++side) {
-        sorted[side] = calloc(counts[side] + 1, sizeof *sorted[side]);
-        complete = complete && sorted[side];
-        for (size_t i = 0; complete && i < counts[side]; ++i)
-            sorted[side][i] = &trees[side]->events[i];
-        if (complete)
-            qsort(sorted[side], counts[side], sizeof *sorted[side], compare_pointers);
-    }
-    if (complete) {
-        join_sides(sorted, counts, trace);
-        qsort(trace->steps + counts[0], trace->step_count - counts[0], sizeof *trace->steps,
-              compare_references);
-    } else {
-        log_error("no memory for %zu events", counts[0] + counts[1] + counts[2]);
-    }
-    for (int side = 0; side < SIDES; ++side)
-        free(sorted[side]);
-    return complete ? STATUS_DONE : STATUS_UNABLE;
+    qsort(trace->steps + trace->device.count, trace->step_count - trace->device.count, sizeof *trace->steps,
+          compare_references);
+    free(entries);
+    return STATUS_DONE;
 }
 
 /* The pixel as the picture has it; the reference's without a context. */
