@@ -86,11 +86,9 @@ static json_t *difference_json(const struct pixel_trace *trace)
                                field ? field->name : "step", "component", difference->component);
     if (!field || field->type != FIELD_VALUE)
         return object;
-    char device[BITS_TEXT], reference[BITS_TEXT];
-    difference_bits(trace, &trace->device, device);
-    difference_bits(trace, &trace->reference, reference);
-    object = with(object, "device_bits", json_string(device));
-    return with(object, "reference_bits", json_string(reference));
+    char bits[BITS_TEXT];
+    object = with(object, "device_bits", json_string(difference_bits(trace, &trace->device, bits)));
+    return with(object, "reference_bits", json_string(difference_bits(trace, &trace->reference, bits)));
 }
 
 json_t *pixel_json(const struct pixel_trace *trace)

@@ -74,8 +74,7 @@ static void print_error(const struct event_field *field, const struct step *step
     putchar(']');
 }
 
-/* Marks the first difference, at the end of the line of what differs; or, where that is no quantity, in a
- * line of its own. */
+/* Marks the first difference: at the end of the line of the quantity, or without one in a line of its own. */
 static void print_first_difference(struct walk *walk)
 {
     static const char *const components[] = {".x", ".y", ".z"};
@@ -83,25 +82,28 @@ static void print_first_difference(struct walk *walk)
     const struct event_difference *difference = &trace->difference;
     const struct event_field *field = difference->field;
     const struct ray_tree *const sides[] = {&trace->device, &trace->reference};
-    if (field)
-        printf("  <-- first difference: %s%s", field->name,
-               field->count > 1 ? components[difference->component] : "");
-    else
-        printf("%*s<-- first difference: step", walk->indent, "");
+    printf("%*s<-- first difference: %s%s", field ? 2 : walk->indent, "", field ? field->name : "step",
+           field && field->count > 1 ? components[difference->component] : "");
     for (int i = 0; i < 2; ++i) {
-        fputs(i == 0 ? ", device " : ", reference ", stdout);
         const struct reference_event *event = &sides[i]->events[difference->event];
-        if (!field) {
-            fputs(difference->event < sides[i]->count ? event_name(event) : "has ended", stdout);
-            continue;
-        }
         char bits[BITS_TEXT];
-        difference_bits(trace, sides[i], bits);
-        if (field->type == FIELD_VALUE)
-            printf("%s ", bits);
-        print_value(trace, field, event_value(event, field, difference->component));
+        fputs(i == 0 ? ", device " : ", reference ", stdout);
+        if (field && field->type == FIELD_VALUE)
+            printf("%s ", difference_bits(trace, sides[i], bits));
+        if (field)
+            print_value(trace, field, event_value(event, field, difference->component));
+        else
+            fputs(difference->event < sides[i]->count ? event_name(event) : "has ended", stdout);
     }
+    putchar('\n');
     walk->marked = true;
+}
+
+/* Marks it if it is in the steps up to that one, and has not been marked. */
+static void mark_first_difference(struct walk *walk, size_t last)
+{
+    if (walk->trace->difference.differs && walk->trace->difference.event <= last && !walk->marked)
+        print_first_difference(walk);
 }
 
 static void begin_line(const struct walk *walk, const char *name)
@@ -129,7 +131,8 @@ static void print_field(struct walk *walk, const struct step *step, const struct
     }
     if (difference->field == field && step->device == &trace->device.events[difference->event])
         print_first_difference(walk);
-    putchar('\n');
+    else
+        putchar('\n');
 }
 
 /* The number of the quad light that an EVENT_LIGHT is about, from 1; below that, of none. */
@@ -140,19 +143,10 @@ static int quad_light(const struct walk *walk, const struct reference_event *eve
 
 static bool is_shown(const struct walk *walk, const struct step *step, const struct event_field *field)
 {
-    if (step->reference && !event_field_agrees(field, step->device, step->reference, NULL))
-        return true;
-    switch (field->shown) {
-    case SHOWN:
-        return true;
-    case SHOWN_IF_FOLLOWED:
-        return event_is_followed(step->device);
-    case SHOWN_OF_QUADS:
-        return event_is_followed(step->device) && quad_light(walk, step->device) > 0;
-    case SHOWN_IF_DIFFERENT:
-        break;
-    }
-    return false;
+    const bool followed = event_is_followed(step->device);
+    return field->shown == SHOWN || (field->shown == SHOWN_IF_FOLLOWED && followed) ||
+           (field->shown == SHOWN_OF_QUADS && followed && quad_light(walk, step->device) > 0) ||
+           (step->reference && !event_field_agrees(field, step->device, step->reference, NULL));
 }
 
 /* The step's quantities, and the margin of its decisions if there is an analysis. */
@@ -176,24 +170,24 @@ static void print_fields(struct walk *walk, const struct step *step)
 }
 
 /* How the ray came about: its parent is the last one before it with a bounce less. */
-static const char *describe_ray(const struct reference_event *ray)
+static const char *describe_ray(const struct ray_tree *tree, const struct reference_event *ray)
 {
     const layout_ivec4 place = ray->head.place;
     const struct reference_event *event = ray;
     if (place.EVENT_BOUNCES == 0)
         return "primary ray";
-    do
+    while (event > tree->events && (event->head.place.EVENT_KIND != EVENT_RAY ||
+                                    event->head.place.EVENT_BOUNCES != place.EVENT_BOUNCES - 1))
         --event;
-    while (event->head.place.EVENT_KIND != EVENT_RAY ||
-           event->head.place.EVENT_BOUNCES != place.EVENT_BOUNCES - 1);
     const uint32_t parent = (uint32_t)event->head.place.EVENT_BRANCH, branch = (uint32_t)place.EVENT_BRANCH;
     if (branch == 2 * parent + 1)
         return "refracted ray";
     if (branch == 2 * parent + 2)
         return "reflected ray";
-    while (event->head.place.EVENT_KIND != EVENT_HIT) /* of which there is one */
+    while (event < ray && event->head.place.EVENT_KIND != EVENT_HIT)
         ++event;
-    return event[1].head.place.EVENT_KIND == EVENT_SPLIT ? "totally reflected ray" : "mirrored ray";
+    return event < ray && event[1].head.place.EVENT_KIND == EVENT_SPLIT ? "totally reflected ray"
+                                                                        : "mirrored ray";
 }
 
 static void print_ray_heading(struct walk *walk, const struct step *step)
@@ -202,7 +196,7 @@ static void print_ray_heading(struct walk *walk, const struct step *step)
     const layout_ivec4 place = step->device->head.place;
     const int bounces = place.EVENT_BOUNCES;
     walk->indent = 2 * (bounces < DEEPEST_INDENT ? bounces : DEEPEST_INDENT);
-    printf("%*s%s", walk->indent, "", describe_ray(step->device));
+    printf("%*s%s", walk->indent, "", describe_ray(&trace->device, step->device));
     if (trace->job->packed.samples > 1)
         printf(", sample %d", place.EVENT_OF_SAMPLE);
     if (bounces > 0)
@@ -215,16 +209,14 @@ static void print_ray_heading(struct walk *walk, const struct step *step)
     walk->indent += 2;
 }
 
-static void print_step(struct walk *walk, const struct step *step)
+static void print_step(struct walk *walk, struct step step)
 {
-    const struct reference_event *event = step->device;
+    const struct reference_event *event = step.device;
     const layout_ivec4 facts = event->head.facts;
     const int kind = event->head.place.EVENT_KIND, quad = quad_light(walk, event);
-    if (kind == EVENT_SAMPLE || kind == EVENT_PIXEL)
-        walk->indent = 0;
     switch (kind) {
     case EVENT_RAY:
-        print_ray_heading(walk, step);
+        print_ray_heading(walk, &step);
         break;
     case EVENT_UNTRACED:
         printf("%*s", walk->indent, "");
@@ -239,15 +231,16 @@ static void print_step(struct walk *walk, const struct step *step)
         break;
     case EVENT_SAMPLE:
         printf("sample %d\n", event->head.place.EVENT_OF_SAMPLE);
+        walk->indent = 2;
         break;
     case EVENT_PIXEL:
         puts("pixel");
+        walk->indent = 2;
         break;
     }
-    const int inner = kind == EVENT_LIGHT || kind == EVENT_SAMPLE || kind == EVENT_PIXEL ? 2 : 0;
-    walk->indent += inner;
-    print_fields(walk, step);
-    walk->indent -= kind == EVENT_LIGHT ? inner : 0;
+    walk->indent += kind == EVENT_LIGHT ? 2 : 0;
+    print_fields(walk, &step);
+    walk->indent -= kind == EVENT_LIGHT ? 2 : 0;
 }
 
 /* The step; without the exact side where that went another way. */
@@ -303,35 +296,25 @@ static size_t print_light_samples(struct walk *walk, size_t i)
     if (isfinite(margin))
         printf("; margin %.3g", margin);
     putchar('\n');
-    if (difference->differs && difference->event >= i && difference->event < end) {
-        struct step step = step_at(walk, difference->event);
-        print_step(walk, &step);
-    }
+    if (difference->differs && difference->event >= i && difference->event < end)
+        print_step(walk, step_at(walk, difference->event));
     return end - 1;
 }
 
 /* Prints step i, or several that are summed up. Returns the number of the last. */
 static size_t print_steps(struct walk *walk, size_t i)
 {
-    const struct pixel_trace *trace = walk->trace;
-    const struct event_difference *difference = &trace->difference;
-    const struct reference_event *event = &trace->device.events[i];
+    const struct packed_scene *packed = &walk->trace->job->packed;
+    const struct reference_event *event = &walk->trace->device.events[i];
     size_t last = i;
-    if (difference->differs && !difference->field && difference->event == i) {
-        print_first_difference(walk);
-        putchar('\n');
-    }
+    if (!walk->trace->difference.field)
+        mark_first_difference(walk, i);
     if (event->head.place.EVENT_KIND == EVENT_LIGHT && quad_light(walk, event) > 0 &&
-        !walk->all_light_samples && trace->job->packed.light_samples > 1) {
+        !walk->all_light_samples && packed->light_samples > 1)
         last = print_light_samples(walk, i);
-    } else {
-        struct step step = step_at(walk, i);
-        print_step(walk, &step);
-    }
-    if (difference->differs && difference->event <= last && !walk->marked) {
-        print_first_difference(walk); /* in a quantity that is not shown otherwise */
-        putchar('\n');
-    }
+    else
+        print_step(walk, step_at(walk, i));
+    mark_first_difference(walk, last); /* in a quantity that is not shown otherwise */
     return last;
 }
 
@@ -362,15 +345,10 @@ void pixel_print(const struct pixel_trace *trace, bool all_light_samples)
     struct walk walk = {.trace = trace, .all_light_samples = all_light_samples, .parted_at = INT_MAX};
     for (size_t i = 0; i < trace->device.count; ++i)
         i = print_steps(&walk, i);
-    if (!trace->difference.differs)
-        return;
-    if (!walk.marked) { /* the device has ended early */
-        print_first_difference(&walk);
-        putchar('\n');
-    }
+    mark_first_difference(&walk, SIZE_MAX); /* the device has ended early */
     size_t missing = 0;
     for (size_t i = trace->device.count; i < trace->step_count; ++i)
         missing += trace->steps[i].reference->head.place.EVENT_KIND == EVENT_RAY;
-    if (missing > 0)
+    if (trace->difference.differs && missing > 0)
         printf("the reference traces %zu rays that the device does not\n", missing);
 }

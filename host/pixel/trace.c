@@ -148,18 +148,17 @@ const char *surface_name(const struct pixel_trace *trace, double surface)
     return trace->job->scene.objects[file_order].name;
 }
 
-void difference_bits(const struct pixel_trace *trace, const struct ray_tree *side,
-                     char text[static BITS_TEXT])
+const char *difference_bits(const struct pixel_trace *trace, const struct ray_tree *side,
+                            char text[static BITS_TEXT])
 {
     const struct event_difference *difference = &trace->difference;
     double value = event_value(&side->events[difference->event], difference->field, difference->component);
     float narrow = (float)value;
-    uint64_t bits;
+    uint64_t bits = 0;
     uint32_t narrow_bits;
     memcpy(&bits, &value, sizeof bits);
     memcpy(&narrow_bits, &narrow, sizeof narrow_bits);
-    if (trace->job->plan.precision == PRECISION_DOUBLE)
-        snprintf(text, BITS_TEXT, "0x%016" PRIx64, bits);
-    else
-        snprintf(text, BITS_TEXT, "0x%08" PRIx32, narrow_bits);
+    const bool wide = trace->job->plan.precision == PRECISION_DOUBLE;
+    snprintf(text, BITS_TEXT, "0x%0*" PRIx64, wide ? 16 : 8, wide ? bits : narrow_bits);
+    return text;
 }

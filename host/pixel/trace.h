@@ -36,9 +36,10 @@ const char *surface_name(const struct pixel_trace *trace, double surface);
 
 enum { BITS_TEXT = 20 };
 
-/* The bits of one side's value where the sides first differ, in the trace's precision and hexadecimal. */
-void difference_bits(const struct pixel_trace *trace, const struct ray_tree *side,
-                     char text[static BITS_TEXT]);
+/* The bits of one side's value where the sides first differ, in the picture's precision and hexadecimal;
+ * text. */
+const char *difference_bits(const struct pixel_trace *trace, const struct ray_tree *side,
+                            char text[static BITS_TEXT]);
 
 /* Prints the ray tree. all_light_samples: otherwise those of a light are summed up. */
 void pixel_print(const struct pixel_trace *trace, bool all_light_samples);
