@@ -17,10 +17,8 @@ enum {
 /* A walk through the device's steps. */
 struct walk {
     const struct pixel_trace *trace;
-    bool all_light_samples;
     int indent;
     int parted_at; /* the exact ray of so many bounces met another object than this one; INT_MAX: none did */
-    bool marked;   /* the first difference has been shown */
 };
 
 static void print_value(const struct pixel_trace *trace, const struct event_field *field, double value)
@@ -75,7 +73,7 @@ static void print_error(const struct event_field *field, const struct step *step
 }
 
 /* Marks the first difference: at the end of the line of the quantity, or without one in a line of its own. */
-static void print_first_difference(struct walk *walk)
+static void print_first_difference(const struct walk *walk)
 {
     static const char *const components[] = {".x", ".y", ".z"};
     const struct pixel_trace *trace = walk->trace;
@@ -96,14 +94,13 @@ static void print_first_difference(struct walk *walk)
             fputs(difference->event < sides[i]->count ? event_name(event) : "has ended", stdout);
     }
     putchar('\n');
-    walk->marked = true;
 }
 
-/* Marks it if it is in the steps up to that one, and has not been marked. */
-static void mark_first_difference(struct walk *walk, size_t last)
+static bool is_first_difference(const struct walk *walk, const struct step *step,
+                                const struct event_field *field)
 {
-    if (walk->trace->difference.differs && walk->trace->difference.event <= last && !walk->marked)
-        print_first_difference(walk);
+    const struct event_difference *difference = &walk->trace->difference;
+    return difference->field == field && step->device == &walk->trace->device.events[difference->event];
 }
 
 static void begin_line(const struct walk *walk, const char *name)
@@ -115,7 +112,6 @@ static void begin_line(const struct walk *walk, const char *name)
 static void print_field(struct walk *walk, const struct step *step, const struct event_field *field)
 {
     const struct pixel_trace *trace = walk->trace;
-    const struct event_difference *difference = &trace->difference;
     begin_line(walk, field->name);
     print_values(trace, field, step->device);
     if (step->reference && !event_field_agrees(field, step->device, step->reference, NULL)) {
@@ -129,7 +125,7 @@ static void print_field(struct walk *walk, const struct step *step, const struct
         printf("  %s ", precision_name(trace->against));
         print_values(trace, field, step->exact);
     }
-    if (difference->field == field && step->device == &trace->device.events[difference->event])
+    if (is_first_difference(walk, step, field))
         print_first_difference(walk);
     else
         putchar('\n');
@@ -146,7 +142,8 @@ static bool is_shown(const struct walk *walk, const struct step *step, const str
     const bool followed = event_is_followed(step->device);
     return field->shown == SHOWN || (field->shown == SHOWN_IF_FOLLOWED && followed) ||
            (field->shown == SHOWN_OF_QUADS && followed && quad_light(walk, step->device) > 0) ||
-           (step->reference && !event_field_agrees(field, step->device, step->reference, NULL));
+           (step->reference && !event_field_agrees(field, step->device, step->reference, NULL)) ||
+           is_first_difference(walk, step, field);
 }
 
 /* The step's quantities, and the margin of its decisions if there is an analysis. */
@@ -264,6 +261,12 @@ static bool differs(const struct step *step)
     return false;
 }
 
+/* Whether the trees part in the step itself, not in a quantity of it. */
+static bool parts_at(const struct pixel_trace *trace, size_t i)
+{
+    return trace->difference.differs && !trace->difference.field && trace->difference.event == i;
+}
+
 /* The samples of one quad light at one point, summed up, but for the one with the first difference. Returns
  * the number of the last. */
 static size_t print_light_samples(struct walk *walk, size_t i)
@@ -273,11 +276,8 @@ static size_t print_light_samples(struct walk *walk, size_t i)
     const struct EventHead *head = &tree->events[i].head;
     size_t end = i, lit = 0, shadowed = 0, differing = 0;
     double sum = 0, margin = INFINITY;
-    for (; end < tree->count; ++end) {
+    do {
         const struct reference_event *event = &tree->events[end];
-        if (memcmp(&event->head.place, &head->place, sizeof head->place) != 0 ||
-            event->head.facts.EVENT_OF_LIGHT != head->facts.EVENT_OF_LIGHT)
-            break;
         const struct step step = step_at(walk, end);
         const double received = event->values[LIGHT_RECEIVED], area = event->values[LIGHT_AREA];
         shadowed += event->head.facts.EVENT_BLOCKER >= 0;
@@ -288,7 +288,10 @@ static size_t print_light_samples(struct walk *walk, size_t i)
         differing += differs(&step);
         if (step.exact)
             margin = fmin(margin, step.exact->margin);
-    }
+        ++end;
+    } while (end < tree->count && !parts_at(walk->trace, end) &&
+             memcmp(&tree->events[end].head.place, &head->place, sizeof head->place) == 0 &&
+             tree->events[end].head.facts.EVENT_OF_LIGHT == head->facts.EVENT_OF_LIGHT);
     printf("%*squad light %d: %zu of %zu samples lit, %zu in shadow; sum of received x area %.6g",
            walk->indent, "", quad_light(walk, &tree->events[i]), lit, end - i, shadowed, sum);
     if (differing > 0)
@@ -296,26 +299,9 @@ static size_t print_light_samples(struct walk *walk, size_t i)
     if (isfinite(margin))
         printf("; margin %.3g", margin);
     putchar('\n');
-    if (difference->differs && difference->event >= i && difference->event < end)
+    if (difference->field && difference->event >= i && difference->event < end)
         print_step(walk, step_at(walk, difference->event));
     return end - 1;
-}
-
-/* Prints step i, or several that are summed up. Returns the number of the last. */
-static size_t print_steps(struct walk *walk, size_t i)
-{
-    const struct packed_scene *packed = &walk->trace->job->packed;
-    const struct reference_event *event = &walk->trace->device.events[i];
-    size_t last = i;
-    if (!walk->trace->difference.field)
-        mark_first_difference(walk, i);
-    if (event->head.place.EVENT_KIND == EVENT_LIGHT && quad_light(walk, event) > 0 &&
-        !walk->all_light_samples && packed->light_samples > 1)
-        last = print_light_samples(walk, i);
-    else
-        print_step(walk, step_at(walk, i));
-    mark_first_difference(walk, last); /* in a quantity that is not shown otherwise */
-    return last;
 }
 
 void pixel_print_verdict(const struct pixel_trace *trace)
@@ -342,10 +328,19 @@ void pixel_print(const struct pixel_trace *trace, bool all_light_samples)
     const struct render_plan *plan = &trace->job->plan;
     printf("%s: pixel (%u, %u) on %s, %s; metres\n", trace->job->scene.path, plan->window.x, plan->window.y,
            trace->context->properties.deviceName, precision_name(plan->precision));
-    struct walk walk = {.trace = trace, .all_light_samples = all_light_samples, .parted_at = INT_MAX};
-    for (size_t i = 0; i < trace->device.count; ++i)
-        i = print_steps(&walk, i);
-    mark_first_difference(&walk, SIZE_MAX); /* the device has ended early */
+    struct walk walk = {.trace = trace, .parted_at = INT_MAX};
+    for (size_t i = 0; i < trace->device.count; ++i) {
+        const struct reference_event *event = &trace->device.events[i];
+        if (parts_at(trace, i))
+            print_first_difference(&walk);
+        if (event->head.place.EVENT_KIND == EVENT_LIGHT && quad_light(&walk, event) > 0 &&
+            !all_light_samples && trace->job->packed.light_samples > 1)
+            i = print_light_samples(&walk, i);
+        else
+            print_step(&walk, step_at(&walk, i));
+    }
+    if (parts_at(trace, trace->device.count)) /* the device has ended early */
+        print_first_difference(&walk);
     size_t missing = 0;
     for (size_t i = trace->device.count; i < trace->step_count; ++i)
         missing += trace->steps[i].reference->head.place.EVENT_KIND == EVENT_RAY;
