@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/output_file.h"
-#include "check/compare.h"
+#include "check/heatmap.h"
 #include "image/formats.h"
 #include "image/srgb.h"
 #include "report_html.h"

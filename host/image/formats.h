@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "image/file.h"
+#include "image/image.h"
 
 /* The writers behind image_write(), one for each format; each reports its failures. */
 enum status image_write_png(const struct image *image, const char *path,

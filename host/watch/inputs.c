@@ -39,7 +39,7 @@ void watch_inputs_destroy(struct watch_inputs *inputs)
 static enum status read_files(struct watch_inputs *inputs)
 {
     errno = 0;
-    inputs->scene = file_text_read(inputs->scene_path, MOST_SCENE_BYTES, &inputs->scene_length);
+    inputs->scene = text_file_read(inputs->scene_path, true, MOST_SCENE_BYTES, &inputs->scene_length);
     inputs->scene_error = inputs->scene ? 0 : errno;
     return shader_source_read(inputs->shader_path, &inputs->shader);
 }

@@ -223,7 +223,7 @@ static void expand_file(struct expansion *expansion, const char *path, const str
     struct open_file file = {.path = path, .includer = includer, .line = 1};
     size_t length;
     file.number = note_file(expansion, path);
-    char *text = file_text_read(path, MOST_BYTES, &length);
+    char *text = text_file_read(path, true, MOST_BYTES, &length);
     const char *problem = judge_text(expansion, &file, text, length);
     if (problem && includer) {
         put_error(expansion, includer, includer->line, "cannot include %s: %s", path, problem);

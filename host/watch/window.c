@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "check/compare.h"
+#include "check/heatmap.h"
 
 enum status watch_window_create(struct vulkan_context *context, unsigned width, unsigned height,
                                 struct watch_window **pointer)
