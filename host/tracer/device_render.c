@@ -2,7 +2,7 @@
 
 #include "base/clock.h"
 #include "scene/truncation.h"
-#include "tracer/repeat.h"
+#include "tracer/render.h"
 
 static enum status render_once_on_device(void *renderer, const struct render_plan *plan, struct image *image,
                                          struct progress *progress, double *milliseconds)

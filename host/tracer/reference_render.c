@@ -5,13 +5,7 @@
 #include "base/clock.h"
 #include "base/interrupt.h"
 #include "scene/truncation.h"
-#include "tracer/repeat.h"
-
-const char *precision_name(enum precision precision)
-{
-    static const char *const names[] = {"float", "double", "quad"};
-    return names[precision];
-}
+#include "tracer/render.h"
 
 static int thread_count(const struct render_plan *plan)
 {

@@ -16,26 +16,23 @@ struct tracer {
     struct dispatcher dispatcher;
 };
 
-/* The variant of the shader that suits the device and what is asked for. */
-static enum whitted_variant choose_variant(const struct arithmetic *arithmetic,
-                                           const struct tracer_options *options)
-{
-    bool native = arithmetic->division_exact && arithmetic->root_exact;
-    bool events = options->event_room > 0;
-    if (options->double_precision)
-        return events ? WHITTED_DOUBLE_EVENTS : WHITTED_DOUBLE;
-    if (options->fast)
-        return WHITTED_FAST;
-    if (native)
-        return events ? WHITTED_EXACT_EVENTS : WHITTED_EXACT;
-    return events ? WHITTED_CORRECTED_EVENTS : WHITTED_CORRECTED;
-}
-
 struct shader_choice tracer_shader(const struct vulkan_context *context, const struct packed_scene *scene,
                                    const struct tracer_options *options)
 {
-    return (struct shader_choice){choose_variant(&context->arithmetic, options),
-                                  scene_needs_storage(context, scene)};
+    static const enum whitted_variant with_events[] = {
+        [WHITTED_EXACT] = WHITTED_EXACT_EVENTS,
+        [WHITTED_CORRECTED] = WHITTED_CORRECTED_EVENTS,
+        [WHITTED_DOUBLE] = WHITTED_DOUBLE_EVENTS,
+    };
+    bool native = context->arithmetic.division_exact && context->arithmetic.root_exact;
+    enum whitted_variant variant = options->double_precision ? WHITTED_DOUBLE
+                                   : options->fast           ? WHITTED_FAST
+                                   : native                  ? WHITTED_EXACT
+                                                             : WHITTED_CORRECTED;
+    return (struct shader_choice){
+        .variant = options->event_room > 0 ? with_events[variant] : variant,
+        .scene_in_storage = scene_needs_storage(context, scene),
+    };
 }
 
 static struct specialization constants_of(const struct tracer *tracer, const struct packed_scene *scene,

@@ -64,7 +64,7 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL report_message(VkDebugUtilsMessageSeverity
     return VK_FALSE;
 }
 
-static void report_no_driver(void)
+static void report_no_device(void)
 {
     log_error("no Vulkan device found; Debian's mesa-vulkan-drivers has one that needs no graphics card");
 }
@@ -118,7 +118,7 @@ static enum status create_instance(struct vulkan_context *context, const struct 
     if (result == VK_ERROR_LAYER_NOT_PRESENT)
         log_error("--validate needs the layer %s (Debian: vulkan-validationlayers)", validation_layer);
     else if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
-        report_no_driver();
+        report_no_device();
     else if (result != VK_SUCCESS)
         log_error("vkCreateInstance: %s", vulkan_result_name(result));
     if (result != VK_SUCCESS)
@@ -133,25 +133,6 @@ static enum status create_instance(struct vulkan_context *context, const struct 
 
 error:
     return STATUS_UNABLE;
-}
-
-/* The devices of the instance, to be freed by the caller; NULL (reported) if there are none. */
-static VkPhysicalDevice *list_devices(VkInstance instance, uint32_t *count)
-{
-    VkPhysicalDevice *devices = NULL;
-    *count = 0;
-    VULKAN_CALL(vkEnumeratePhysicalDevices, instance, count, NULL);
-    devices = calloc(*count + 1, sizeof *devices);
-    if (!devices || *count == 0) {
-        report_no_driver();
-        goto error;
-    }
-    VULKAN_CALL(vkEnumeratePhysicalDevices, instance, count, devices);
-    return devices;
-
-error:
-    free(devices);
-    return NULL;
 }
 
 /* Learns what the device is and has. Higher is better; 0: it cannot be used. */
@@ -191,18 +172,13 @@ static int inspect_device(struct vulkan_context *context, const struct vulkan_op
     }
     if (context->properties.apiVersion < VK_API_VERSION_1_2 || context->queue_family == UINT32_MAX)
         return 0;
-    switch (context->properties.deviceType) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-        return 5;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-        return 4;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-        return 3;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU:
-        return 2;
-    default:
-        return 1;
-    }
+    static const int scores[] = {
+        [VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU] = 5, [VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU] = 4,
+        [VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU] = 3,  [VK_PHYSICAL_DEVICE_TYPE_CPU] = 2,
+        [VK_PHYSICAL_DEVICE_TYPE_OTHER] = 1,
+    };
+    const size_t type = (size_t)context->properties.deviceType;
+    return type < sizeof scores / sizeof *scores ? scores[type] : 1;
 }
 
 static bool device_matches(const char *choice, uint32_t index, const char *name)
@@ -237,6 +213,38 @@ static uint32_t choose_device(struct vulkan_context *context, const struct vulka
             "no device offers Vulkan 1.2 and a compute queue%s; 'vkwhitted devices' lists what is there",
             needed);
     return chosen;
+}
+
+/* The machine's devices, and the number of the one that the options choose (count, reported: none). */
+struct device_list {
+    VkPhysicalDevice *devices; /* to be freed */
+    uint32_t count, chosen;
+};
+
+/* Makes a context without an open device. On failure (reported) there is none. */
+static enum status create_context(const struct vulkan_options *options, struct vulkan_context **pointer,
+                                  struct device_list *list)
+{
+    struct vulkan_context *context = *pointer = calloc(1, sizeof *context);
+    *list = (struct device_list){0};
+    if (!context)
+        log_error("no memory for the Vulkan context");
+    if (!context || create_instance(context, options) != STATUS_DONE)
+        goto error;
+    VULKAN_CALL(vkEnumeratePhysicalDevices, context->instance, &list->count, NULL);
+    list->devices = calloc(list->count + 1, sizeof *list->devices);
+    if (!list->devices || list->count == 0) {
+        report_no_device();
+        goto error;
+    }
+    VULKAN_CALL(vkEnumeratePhysicalDevices, context->instance, &list->count, list->devices);
+    list->chosen = choose_device(context, options, list->devices, list->count);
+    return STATUS_DONE;
+
+error:
+    free(list->devices);
+    vulkan_context_destroy(pointer);
+    return STATUS_UNABLE;
 }
 
 /* Opens the device that was inspected last. */
@@ -274,23 +282,17 @@ error:
 
 enum status vulkan_context_create(const struct vulkan_options *options, struct vulkan_context **pointer)
 {
-    struct vulkan_context *context = *pointer = calloc(1, sizeof *context);
-    if (!context) {
-        log_error("no memory for the Vulkan context");
-        return STATUS_UNABLE;
-    }
-    uint32_t count = 0, chosen = 0;
-    enum status status = create_instance(context, options);
-    VkPhysicalDevice *devices = status == STATUS_DONE ? list_devices(context->instance, &count) : NULL;
-    if (devices)
-        chosen = choose_device(context, options, devices, count);
-    if (chosen < count) {
-        inspect_device(context, options, devices[chosen]);
-        status = open_device(context, options);
+    struct device_list list;
+    enum status status = create_context(options, pointer, &list);
+    if (status != STATUS_DONE)
+        return status;
+    if (list.chosen < list.count) {
+        inspect_device(*pointer, options, list.devices[list.chosen]);
+        status = open_device(*pointer, options);
     } else {
-        status = devices && options->device ? STATUS_REFUSED : STATUS_UNABLE;
+        status = options->device ? STATUS_REFUSED : STATUS_UNABLE;
     }
-    free(devices);
+    free(list.devices);
     if (status != STATUS_DONE)
         vulkan_context_destroy(pointer);
     return status;
@@ -349,27 +351,21 @@ static void print_device(const struct vulkan_context *context, uint32_t index, b
 enum status vulkan_print_devices(const struct vulkan_options *options,
                                  enum status (*print_more)(struct vulkan_context *))
 {
-    struct vulkan_context *context = calloc(1, sizeof *context);
-    if (!context) {
-        log_error("no memory for the Vulkan context");
-        return STATUS_UNABLE;
-    }
-    uint32_t count = 0;
-    enum status status = create_instance(context, options);
-    VkPhysicalDevice *devices = status == STATUS_DONE ? list_devices(context->instance, &count) : NULL;
-    uint32_t chosen = devices ? choose_device(context, options, devices, count) : count;
-    for (uint32_t i = 0; i < count && status == STATUS_DONE; ++i) {
-        bool usable = inspect_device(context, options, devices[i]) > 0;
-        print_device(context, i, i == chosen, usable);
+    struct vulkan_context *context;
+    struct device_list list;
+    enum status status = create_context(options, &context, &list);
+    for (uint32_t i = 0; i < list.count && status == STATUS_DONE; ++i) {
+        bool usable = inspect_device(context, options, list.devices[i]) > 0;
+        print_device(context, i, i == list.chosen, usable);
         if (usable)
             status = open_device(context, options);
         if (usable && status == STATUS_DONE)
             status = print_more(context);
         close_device(context);
     }
-    if (chosen == count)
-        status = devices && options->device ? STATUS_REFUSED : STATUS_UNABLE;
-    free(devices);
+    if (status == STATUS_DONE && list.chosen == list.count)
+        status = options->device ? STATUS_REFUSED : STATUS_UNABLE;
+    free(list.devices);
     enum status closed = vulkan_context_destroy(&context);
     return status == STATUS_DONE ? closed : status;
 }

@@ -1,9 +1,11 @@
 #include "vulkan/pass.h"
 
-static enum status create_layouts(struct vulkan_pass *pass, const struct pass_info *info)
+/* The set, and the layouts of set and pipeline. */
+static enum status create_set(struct vulkan_pass *pass, const struct pass_info *info)
 {
     const VkDevice device = pass->context->device;
     VkDescriptorSetLayoutBinding bindings[PASS_MOST_BINDINGS];
+    VkWriteDescriptorSet writes[PASS_MOST_BINDINGS];
     for (uint32_t i = 0; i < info->binding_count; ++i)
         bindings[i] = (VkDescriptorSetLayoutBinding){
             .binding = i,
@@ -28,15 +30,6 @@ static enum status create_layouts(struct vulkan_pass *pass, const struct pass_in
                         &(VkPushConstantRange){VK_SHADER_STAGE_COMPUTE_BIT, 0, info->push_constant_size},
                 },
                 NULL, &pass->layout);
-    return STATUS_DONE;
-
-error:
-    return STATUS_UNABLE;
-}
-
-static enum status create_set(struct vulkan_pass *pass, const struct pass_info *info)
-{
-    const VkDevice device = pass->context->device;
     VULKAN_CALL(
         vkCreateDescriptorPool, device,
         &(VkDescriptorPoolCreateInfo){
@@ -57,16 +50,15 @@ static enum status create_set(struct vulkan_pass *pass, const struct pass_info *
                 &pass->set);
     vulkan_name(pass->context, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)pass->set, info->name);
     for (uint32_t i = 0; i < info->binding_count; ++i)
-        vkUpdateDescriptorSets(device, 1,
-                               &(VkWriteDescriptorSet){
-                                   .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                   .dstSet = pass->set,
-                                   .dstBinding = i,
-                                   .descriptorCount = 1,
-                                   .descriptorType = info->bindings[i].type,
-                                   .pBufferInfo = &info->bindings[i].memory,
-                               },
-                               0, NULL);
+        writes[i] = (VkWriteDescriptorSet){
+            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+            .dstSet = pass->set,
+            .dstBinding = i,
+            .descriptorCount = 1,
+            .descriptorType = info->bindings[i].type,
+            .pBufferInfo = &info->bindings[i].memory,
+        };
+    vkUpdateDescriptorSets(device, info->binding_count, writes, 0, NULL);
     return STATUS_DONE;
 
 error:
@@ -124,9 +116,7 @@ enum status vulkan_pass_create(struct vulkan_context *context, const struct pass
                                struct vulkan_pass *pass)
 {
     *pass = (struct vulkan_pass){.context = context, .push_constant_size = info->push_constant_size};
-    enum status status = create_layouts(pass, info);
-    if (status == STATUS_DONE)
-        status = create_set(pass, info);
+    enum status status = create_set(pass, info);
     if (status == STATUS_DONE)
         status = create_pipeline(pass, info);
     if (status != STATUS_DONE)

@@ -1,8 +1,14 @@
-#include "tracer/repeat.h"
+#include "tracer/render.h"
 
 #include <stdlib.h>
 
 #include "base/statistics.h"
+
+const char *precision_name(enum precision precision)
+{
+    static const char *const names[] = {"float", "double", "quad"};
+    return names[precision];
+}
 
 enum status render_repeatedly(render_once *render, void *renderer, const struct render_plan *plan,
                               struct rendering *rendering)
