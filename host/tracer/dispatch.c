@@ -7,11 +7,6 @@
 enum { CONSTANTS = sizeof(struct specialization) / sizeof(uint32_t) };
 _Static_assert((int)CONSTANTS <= (int)PASS_MOST_CONSTANTS && (int)BINDINGS <= (int)PASS_MOST_BINDINGS, "");
 
-/* As EventBlock in shaders/events.glsl. */
-struct event_block {
-    uint32_t count, room, unused[2];
-};
-
 static size_t pixel_size(const struct dispatcher *dispatcher)
 {
     return CHANNELS * (dispatcher->value_type == VALUE_DOUBLE ? sizeof(double) : sizeof(float));
@@ -178,11 +173,4 @@ double dispatcher_mark(const struct dispatcher *dispatcher, size_t pixels)
         mark = value < mark ? value : mark;
     }
     return mark;
-}
-
-uint32_t dispatcher_events(const struct dispatcher *dispatcher, const void **events)
-{
-    const struct event_block *block = dispatcher->events.mapped;
-    *events = block + 1;
-    return block->count;
 }

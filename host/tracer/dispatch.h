@@ -42,6 +42,11 @@ struct portion {
     uint32_t goes_on; /* with what the dispatch before has left of the sample */
 };
 
+/* What `events` begins with. As EventBlock in shaders/events.glsl. */
+struct event_block {
+    uint32_t count, room, unused[2];
+};
+
 /* Builds the pipeline and what it needs; the scene's buffer must outlive the dispatcher. On failure
  * (reported) *dispatcher is empty. */
 enum status dispatcher_create(struct vulkan_context *context, const struct dispatcher_info *info,
@@ -56,8 +61,5 @@ enum status dispatcher_run(struct dispatcher *dispatcher, const struct portion *
 /* The lowest of the first values of so many pixels: UNFINISHED or TOO_LONG of scene_layout.h, or something
  * lower where ended loops have left a pixel as it was in memory; 0 if all are done. */
 double dispatcher_mark(const struct dispatcher *dispatcher, size_t pixels);
-
-/* As tracer_events(). */
-uint32_t dispatcher_events(const struct dispatcher *dispatcher, const void **events);
 
 #endif

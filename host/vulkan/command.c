@@ -2,8 +2,6 @@
 
 #include "base/clock.h"
 
-enum { STARTED, ENDED, TIMESTAMPS };
-
 enum status vulkan_command_create(struct vulkan_context *context, struct vulkan_command *command)
 {
     const VkDevice device = context->device;
@@ -61,16 +59,6 @@ void vulkan_record_barrier(VkCommandBuffer commands, VkPipelineStageFlags to, Vk
                              .dstAccessMask = accesses,
                          },
                          0, NULL, 0, NULL);
-}
-
-void vulkan_record_dispatch(const struct vulkan_command *command, uint32_t groups_x, uint32_t groups_y)
-{
-    if (command->timestamps)
-        vkCmdWriteTimestamp(command->buffer, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, command->timestamps, STARTED);
-    vkCmdDispatch(command->buffer, groups_x, groups_y, 1);
-    if (command->timestamps)
-        vkCmdWriteTimestamp(command->buffer, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, command->timestamps,
-                            ENDED);
 }
 
 enum status vulkan_command_begin(struct vulkan_command *command, const char *label)

@@ -3,13 +3,15 @@
 
 #include "vulkan/context.h"
 
+enum { STARTED, ENDED, TIMESTAMPS };
+
 /* A command buffer that is recorded, submitted and waited for, again and again. Several can be under way. */
 struct vulkan_command {
     struct vulkan_context *context;
     VkCommandPool pool;
     VkCommandBuffer buffer; /* to record into, after vulkan_command_begin() */
     VkFence fence;
-    VkQueryPool timestamps; /* VK_NULL_HANDLE: the queue has none */
+    VkQueryPool timestamps; /* of the dispatch in it; VK_NULL_HANDLE: the queue has none */
     double submitted_ms;    /* clock_ms() */
 };
 
@@ -29,9 +31,6 @@ enum status vulkan_command_submit(struct vulkan_command *command);
 /* Waits until the device has done it. *device_ms is the time that its dispatch took by the device's
  * timestamps, or, where there are none, the time since the submission. */
 enum status vulkan_command_wait(struct vulkan_command *command, double *device_ms);
-
-/* Records the command's only dispatch, of so many work groups, and its timestamps. */
-void vulkan_record_dispatch(const struct vulkan_command *command, uint32_t groups_x, uint32_t groups_y);
 
 /* Records that what shaders and transfers have written so far is seen by the stages that follow. */
 void vulkan_record_barrier(VkCommandBuffer commands, VkPipelineStageFlags to, VkAccessFlags accesses);

@@ -145,5 +145,10 @@ void vulkan_pass_record(const struct vulkan_pass *pass, const struct vulkan_comm
     if (pass->push_constant_size > 0)
         vkCmdPushConstants(command->buffer, pass->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                            pass->push_constant_size, push_constants);
-    vulkan_record_dispatch(command, groups_x, groups_y);
+    if (command->timestamps)
+        vkCmdWriteTimestamp(command->buffer, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, command->timestamps, STARTED);
+    vkCmdDispatch(command->buffer, groups_x, groups_y, 1);
+    if (command->timestamps)
+        vkCmdWriteTimestamp(command->buffer, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, command->timestamps,
+                            ENDED);
 }

@@ -51,7 +51,7 @@ enum status vulkan_pass_create(struct vulkan_context *context, const struct pass
 /* Destroys a pass that the device no longer uses, or nothing, and empties *pass. */
 void vulkan_pass_destroy(struct vulkan_pass *pass);
 
-/* Records a dispatch of so many work groups with these push constants. */
+/* Records the command's only dispatch, of so many work groups, with these push constants. */
 void vulkan_pass_record(const struct vulkan_pass *pass, const struct vulkan_command *command,
                         const void *push_constants, uint32_t groups_x, uint32_t groups_y);
 
