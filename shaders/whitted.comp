@@ -236,16 +236,25 @@ real3 stored(uint place)
     return real3(picture[3u * place], picture[3u * place + 1u], picture[3u * place + 2u]);
 }
 
+// Of a pixel without values yet.
+void store_mark(uint place, real mark)
+{
+    if (INTEGERS)
+        counts[3u * place] = uint(int(mark));
+    else
+        picture[3u * place] = mark;
+}
+
 // The values of the pixel or, of integers, the mark in value.x and the tally.
 void store(uint place, real3 value, Tally tally)
 {
+    store_mark(place, value.x);
     if (INTEGERS) {
-        counts[3u * place] = uint(int(value.x));
         counts[3u * place + 1u] = OUTPUT == OUTPUT_RAYS ? tally.secondary_rays : tally.signature;
         counts[3u * place + 2u] = tally.shadow_rays;
     } else {
-        for (uint c = 0u; c < 3u; ++c)
-            picture[3u * place + c] = value[c];
+        picture[3u * place + 1u] = value.y;
+        picture[3u * place + 2u] = value.z;
     }
 }
 
@@ -328,5 +337,5 @@ void main()
     }
     uvec2 first = uvec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * ROWS);
     if (too_many_turns(end_sample - first_sample) && all(lessThan(first, tile_size)))
-        store(first.y * tile_size.x + first.x, real3(TOO_LONG), Tally(0u, 0u, 0u));
+        store_mark(first.y * tile_size.x + first.x, real(TOO_LONG));
 }
