@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-#include "vulkan/pipeline.h"
+#include "vulkan/pass.h"
 
 enum whitted_variant {
     WHITTED_EXACT,

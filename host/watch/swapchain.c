@@ -125,12 +125,9 @@ static enum status create_images(struct swapchain *swapchain)
         FAIL_UNLESS_SUCCESS(vkCreateSemaphore, device,
                             &(VkSemaphoreCreateInfo){.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO}, NULL,
                             &swapchain->drawn[i]);
-    return vulkan_buffer_create(
-        swapchain->context, 4 * (VkDeviceSize)swapchain->extent.width * swapchain->extent.height,
-        VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-        (const VkMemoryPropertyFlags[]){
-            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0},
-        &swapchain->pixels);
+    return vulkan_buffer_create(swapchain->context, "picture for the window",
+                                4 * (VkDeviceSize)swapchain->extent.width * swapchain->extent.height,
+                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BUFFER_UPLOAD, &swapchain->pixels);
 }
 
 static enum status build(struct swapchain *swapchain, const VkSurfaceCapabilitiesKHR *capabilities)
