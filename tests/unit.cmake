@@ -15,15 +15,15 @@ if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND NOT VKWHITTED_SANITIZE)
     add_unit_test(convergence) # dear, and the same bits in all builds
 endif()
 add_unit_test(fit)
-add_unit_test(file_watch)
 add_unit_test(image)
 add_unit_test(markup)
 add_unit_test(number)
 add_unit_test(pack)
 add_unit_test(output_file)
 add_unit_test(scene_file)
-add_unit_test(shader_compiler)
-target_compile_definitions(unit_shader_compiler PRIVATE SHADER_DEBUG_INFO=$<BOOL:${VKWHITTED_SHADER_DEBUG_INFO}>)
+add_unit_test(inputs)
+add_unit_test(compiler)
+target_compile_definitions(unit_compiler PRIVATE SHADER_DEBUG_INFO=$<BOOL:${VKWHITTED_SHADER_DEBUG_INFO}>)
 add_unit_test(srgb)
 
 # These open a device.

@@ -15,7 +15,8 @@ struct watch_options {
     bool window; /* show pictures in one */
 };
 
-/* Keeps the picture current while the scene file and the shader change, until Ctrl-C or the window is closed. */
+/* Keeps the picture current while the scene file and the shader change, until Ctrl-C or the window is closed.
+ */
 enum status watch(const struct watch_options *options);
 
 #endif
