@@ -3,7 +3,6 @@
 #include <pthread.h>
 #include <sched.h>
 #include <semaphore.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -66,12 +65,13 @@ static void compare(struct background_check *check, struct picture *picture)
     if (!check->talkative)
         return;
     size_t pixels = (size_t)image->width * image->height;
-    char outcome[80];
-    if (differing > 0)
-        snprintf(outcome, sizeof outcome, "%zu of %zu pixels differ from the reference", differing, pixels);
+    double milliseconds = clock_ms() - start;
+    if (differing == 0)
+        log_notice("picture %u: agrees with the reference in all %zu pixels (after %.0f ms)", picture->number,
+                   pixels, milliseconds);
     else
-        snprintf(outcome, sizeof outcome, "agrees with the reference in all %zu pixels", pixels);
-    log_notice("picture %u: %s (after %.0f ms)", picture->number, outcome, clock_ms() - start);
+        log_notice("picture %u: %zu of %zu pixels differ from the reference (after %.0f ms)", picture->number,
+                   differing, pixels, milliseconds);
 }
 
 static void *run(void *argument)

@@ -115,15 +115,8 @@ static void put_dependencies(FILE *files, const char *text)
     }
 }
 
-/* Beside the file that includes it. */
-static void put_missing_file(FILE *files, const char *includer, const char *name)
-{
-    const char *slash = strrchr(includer, '/');
-    int folder_length = slash && name[0] != '/' ? (int)(slash + 1 - includer) : 0;
-    fprintf(files, "%.*s%s%c", folder_length, includer, name, 0);
-}
-
-/* Writes a message as compilers do, without the noise in which glslang wraps it, and the files it names. */
+/* Writes a message as compilers do, without the noise in which glslang wraps it; and the files that it names,
+ * a missing one beside the one that includes it. */
 static void put_message(FILE *messages, FILE *files, const char *path, const char *severity, char *message)
 {
     static const char missing[] = "'#include' : Could not process include directive for header name: ",
@@ -132,26 +125,27 @@ static void put_message(FILE *messages, FILE *files, const char *path, const cha
     while (colon && strspn(colon + 1, "0123456789") == 0)
         colon = strchr(colon + 1, ':');
     if (colon && (text = strstr(colon + 1, ": "))) {
-        fprintf(messages, "%.*s: %s: ", (int)(text - message), message, severity);
-        fprintf(files, "%.*s%c", (int)(colon - message), message, 0);
-        *colon = 0;
+        path = message;
+        *colon = *text = 0;
+        fprintf(messages, "%s:%s: %s: ", path, colon + 1, severity);
+        fprintf(files, "%s%c", path, 0);
         text += 2;
     } else {
-        fprintf(messages, "%s: %s: ", path, severity);
         text = message;
+        fprintf(messages, "%s: %s: ", path, severity);
     }
     if (strncmp(text, unnamed, sizeof unnamed - 1) == 0)
         text += sizeof unnamed - 1;
     if (strncmp(text, missing, sizeof missing - 1) == 0) {
+        const char *slash = strrchr(path, '/');
         text += sizeof missing - 1;
-        put_missing_file(files, message, text);
-        fputs("cannot include ", messages);
+        fprintf(messages, "cannot include ");
+        fprintf(files, "%.*s%s%c", slash && *text != '/' ? (int)(slash + 1 - path) : 0, path, text, 0);
     }
     text += strspn(text, " ");
-    int length = (int)strlen(text);
-    while (length > 0 && text[length - 1] == ' ')
-        --length;
-    fprintf(messages, "%.*s\n", length, text);
+    for (size_t length = strlen(text); length > 0 && text[length - 1] == ' ';)
+        text[--length] = 0;
+    fprintf(messages, "%s\n", text);
 }
 
 /* Warnings and the first error: glslang reads no further then, and what else it says is a consequence. */

@@ -24,27 +24,17 @@ struct display {
     bool dragging, panning;      /* the left button is down; Shift was, when it went down */
     double pointer_x, pointer_y; /* where it was last */
     struct display_input input;
+    bool has_input;
     char title[1024];
 };
-
-static bool has_input(const struct display_input *input)
-{
-    return input->closed || input->orbit_x != 0 || input->orbit_y != 0 || input->pan_x != 0 ||
-           input->pan_y != 0 || input->zoom != 0 || input->reset || input->print_camera || input->save ||
-           input->difference;
-}
 
 /* x and y in picture heights. */
 static void drag(struct display *display, bool pan, double x, double y)
 {
     struct display_input *input = &display->input;
+    display->has_input = true;
     *(pan ? &input->pan_x : &input->orbit_x) += x;
     *(pan ? &input->pan_y : &input->orbit_y) += y;
-}
-
-static void on_close(GLFWwindow *window)
-{
-    ((struct display *)glfwGetWindowUserPointer(window))->input.closed = true;
 }
 
 static void on_framebuffer_size(GLFWwindow *window, int width, int height)
@@ -87,65 +77,57 @@ static void on_pointer(GLFWwindow *window, double x, double y)
 static void on_scroll(GLFWwindow *window, double x, double y)
 {
     (void)x;
-    ((struct display *)glfwGetWindowUserPointer(window))->input.zoom += y;
+    struct display *display = glfwGetWindowUserPointer(window);
+    display->input.zoom += y;
+    display->has_input = true;
 }
 
-/* The character on a key, or where that is none of ASCII, the one that a US keyboard has there; 0: none. */
-static char key_character(int key, int scancode)
+/* The character on a key, or where that is none of ASCII, GLFW's number for it: of a letter key, the letter
+ * that a US keyboard has there. */
+static int key_code(int key, int scancode)
 {
     const char *name = glfwGetKeyName(key, scancode);
-    if (name && name[0] > 0 && name[1] == '\0')
-        return name[0] >= 'A' && name[0] <= 'Z' ? (char)(name[0] - 'A' + 'a') : name[0];
-    return key >= GLFW_KEY_A && key <= GLFW_KEY_Z ? (char)(key - GLFW_KEY_A + 'a') : '\0';
-}
-
-static void press_character(struct display_input *input, char character, bool repeated)
-{
-    switch (character) {
-    case '+':
-    case '=': /* + with Shift on many keyboards */
-        input->zoom += zoom_key_step;
-        break;
-    case '-':
-        input->zoom -= zoom_key_step;
-        break;
-    case 'r':
-        input->reset = true;
-        break;
-    case 'p':
-        input->print_camera = input->print_camera || !repeated;
-        break;
-    case 's':
-        input->save = input->save || !repeated;
-        break;
-    case 'd':
-        input->difference = input->difference != !repeated; /* twice is back again */
-        break;
-    default:
-        break;
-    }
+    int code = name && name[0] > 0 && name[1] == 0 ? name[0] : key;
+    return code >= 'A' && code <= 'Z' ? code - 'A' + 'a' : code;
 }
 
 static void on_key(GLFWwindow *window, int key, int scancode, int action, int mods)
 {
     struct display *display = glfwGetWindowUserPointer(window);
-    bool pan = mods & GLFW_MOD_SHIFT;
+    struct display_input *input = &display->input;
+    bool pan = mods & GLFW_MOD_SHIFT, pressed = action == GLFW_PRESS;
     if (action == GLFW_RELEASE || (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)))
         return;
-    if (key == GLFW_KEY_ESCAPE)
-        display->input.closed = true;
-    else if (key == GLFW_KEY_LEFT || key == GLFW_KEY_RIGHT)
-        drag(display, pan, key == GLFW_KEY_LEFT ? -arrow_step : arrow_step, 0);
-    else if (key == GLFW_KEY_UP || key == GLFW_KEY_DOWN)
-        drag(display, pan, 0, key == GLFW_KEY_UP ? -arrow_step : arrow_step);
-    else
-        press_character(&display->input, key_character(key, scancode), action == GLFW_REPEAT);
+    int code = key_code(key, scancode);
+    display->has_input = true;
+    if (code == GLFW_KEY_LEFT || code == GLFW_KEY_RIGHT)
+        drag(display, pan, code == GLFW_KEY_LEFT ? -arrow_step : arrow_step, 0);
+    if (code == GLFW_KEY_UP || code == GLFW_KEY_DOWN)
+        drag(display, pan, 0, code == GLFW_KEY_UP ? -arrow_step : arrow_step);
+    if (code == '-' || code == '+' || code == '=') /* + with Shift on many keyboards */
+        input->zoom += code == '-' ? -zoom_key_step : zoom_key_step;
+    if (code == GLFW_KEY_ESCAPE)
+        glfwSetWindowShouldClose(window, GLFW_TRUE);
+    input->reset |= code == 'r';
+    input->print_camera |= code == 'p' && pressed;
+    input->save |= code == 's' && pressed;
+    input->difference ^= code == 'd' && pressed; /* twice is back again */
 }
 
 static const char *glfw_reason(void)
 {
     const char *reason;
     return glfwGetError(&reason) == GLFW_NO_ERROR ? "GLFW has no reason" : reason;
+}
+
+/* Whether the family of queues can scale a picture and show it. */
+static int can_present(VkInstance instance, VkPhysicalDevice device, uint32_t family)
+{
+    VkQueueFamilyProperties families[16];
+    uint32_t count = sizeof families / sizeof *families;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families);
+    return family < count && (families[family].queueFlags & VK_QUEUE_GRAPHICS_BIT) &&
+           glfwGetPhysicalDevicePresentationSupport(instance, device, family);
 }
 
 enum status display_connect(struct vulkan_options *vulkan)
@@ -156,7 +138,7 @@ enum status display_connect(struct vulkan_options *vulkan)
     }
     signal(SIGPIPE, SIG_IGN); /* it would keep Xlib from saying that the display has gone away */
     vulkan->instance_extensions = glfwGetRequiredInstanceExtensions(&vulkan->instance_extension_count);
-    vulkan->can_present = glfwGetPhysicalDevicePresentationSupport;
+    vulkan->can_present = can_present;
     if (vulkan->instance_extensions)
         return STATUS_DONE;
     log_error("no Vulkan driver here can show pictures in a window");
@@ -182,7 +164,6 @@ static enum status create_window(struct display *display, unsigned width, unsign
         return STATUS_UNABLE;
     }
     glfwSetWindowUserPointer(display->window, display);
-    glfwSetWindowCloseCallback(display->window, on_close);
     glfwSetFramebufferSizeCallback(display->window, on_framebuffer_size);
     glfwSetWindowRefreshCallback(display->window, on_refresh);
     glfwSetMouseButtonCallback(display->window, on_button);
@@ -246,12 +227,16 @@ enum status display_wait(struct display *display, double seconds, struct display
         if (display->stale && display->picture.width > 0)
             status = display_paint(display);
         double left = (end_ms - clock_ms()) / 1e3;
-        if (status != STATUS_DONE || left <= 0 || has_input(&display->input) || interrupt_requested())
+        display->input.closed = glfwWindowShouldClose(display->window);
+        if (status != STATUS_DONE || left <= 0 || display->has_input || display->input.closed ||
+            interrupt_requested())
             break;
         glfwWaitEventsTimeout(fmin(left, longest_wait));
     }
     *input = display->input;
     display->input = (struct display_input){0};
+    display->has_input = false;
+    glfwSetWindowShouldClose(display->window, GLFW_FALSE);
     return status;
 }
 

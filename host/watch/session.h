@@ -2,12 +2,22 @@
 #define VKWHITTED_WATCH_SESSION_H
 
 #include "image/srgb.h"
-#include "tracer/tracer.h"
 #include "watch/background_check.h"
 #include "watch/compiler.h"
 #include "watch/display.h"
 #include "watch/inputs.h"
-#include "watch/watch.h"
+
+struct watch_options {
+    const char *scene;          /* path */
+    const char *shader_folder;  /* NULL: the one that came with the program */
+    const char *const *outputs; /* files that each picture is written to */
+    size_t output_count;
+    enum transfer transfer;
+    struct vulkan_options vulkan;
+    struct job_options job;
+    bool check;  /* compare each picture with the reference */
+    bool window; /* show pictures in one */
+};
 
 /* What `watch` holds from one picture to the next. */
 struct session {

@@ -1,6 +1,7 @@
 #include "watch/swapchain.h"
 
 #include <stdlib.h>
+#include <strings.h>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -8,7 +9,7 @@
 #include "vulkan/buffer.h"
 
 /* Nanoseconds. An image is free within a frame's time unless the window is hidden. */
-static const uint64_t acquire_timeout = 100000000, fence_timeout = 10000000000;
+static const uint64_t acquire_timeout = 100000000;
 
 enum { MOST_IMAGES = 16 };
 
@@ -22,7 +23,7 @@ struct swapchain {
     VkImage images[MOST_IMAGES];
     VkCommandPool pool;
     VkCommandBuffer commands;
-    VkFence fence;
+    VkSemaphore acquired;
 
     VkExtent2D picture_extent;
     struct vulkan_buffer pixels; /* the picture, as the host writes it */
@@ -62,6 +63,9 @@ error:
 static enum status create_commands(struct swapchain *swapchain)
 {
     const struct vulkan_context *context = swapchain->context;
+    VULKAN_CALL(vkCreateSemaphore, context->device,
+                &(VkSemaphoreCreateInfo){.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO}, NULL,
+                &swapchain->acquired);
     VULKAN_CALL(vkCreateCommandPool, context->device,
                 &(VkCommandPoolCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
@@ -73,12 +77,9 @@ static enum status create_commands(struct swapchain *swapchain)
                 &(VkCommandBufferAllocateInfo){
                     .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                     .commandPool = swapchain->pool,
-                    .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                     .commandBufferCount = 1,
                 },
                 &swapchain->commands);
-    VULKAN_CALL(vkCreateFence, context->device,
-                &(VkFenceCreateInfo){.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO}, NULL, &swapchain->fence);
     return STATUS_DONE;
 
 error:
@@ -94,12 +95,10 @@ enum status swapchain_create(struct vulkan_context *context, GLFWwindow *window,
     }
     swapchain->context = context;
     swapchain->window = window;
-    enum status status = create_surface(swapchain);
-    if (status == STATUS_DONE)
-        status = create_commands(swapchain);
-    if (status != STATUS_DONE)
-        swapchain_destroy(pointer);
-    return status;
+    if (create_surface(swapchain) == STATUS_DONE && create_commands(swapchain) == STATUS_DONE)
+        return STATUS_DONE;
+    swapchain_destroy(pointer);
+    return STATUS_UNABLE;
 }
 
 static void destroy_picture(struct swapchain *swapchain)
@@ -122,7 +121,7 @@ void swapchain_destroy(struct swapchain **pointer)
     vkQueueWaitIdle(swapchain->context->queue);
     destroy_picture(swapchain);
     vkDestroySwapchainKHR(device, swapchain->handle, NULL);
-    vkDestroyFence(device, swapchain->fence, NULL);
+    vkDestroySemaphore(device, swapchain->acquired, NULL);
     vkDestroyCommandPool(device, swapchain->pool, NULL);
     if (swapchain->surface)
         vkDestroySurfaceKHR(swapchain->context->instance, swapchain->surface, NULL);
@@ -133,7 +132,6 @@ static enum status create_picture(struct swapchain *swapchain, VkExtent2D extent
 {
     struct vulkan_context *context = swapchain->context;
     VkMemoryRequirements needs;
-    uint32_t type = 0;
     VULKAN_CALL(vkCreateImage, context->device,
                 &(VkImageCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
@@ -147,13 +145,11 @@ static enum status create_picture(struct swapchain *swapchain, VkExtent2D extent
                 },
                 NULL, &swapchain->picture);
     vkGetImageMemoryRequirements(context->device, swapchain->picture, &needs);
-    while (!(needs.memoryTypeBits >> type & 1)) /* the first is the fastest of those that will do */
-        ++type;
     VULKAN_CALL(vkAllocateMemory, context->device,
                 &(VkMemoryAllocateInfo){
                     .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
                     .allocationSize = needs.size,
-                    .memoryTypeIndex = type,
+                    .memoryTypeIndex = (uint32_t)ffs((int)needs.memoryTypeBits) - 1, /* the fastest first */
                 },
                 NULL, &swapchain->picture_memory);
     VULKAN_CALL(vkBindImageMemory, context->device, swapchain->picture, swapchain->picture_memory, 0);
@@ -170,20 +166,15 @@ error:
 unsigned char *swapchain_picture(struct swapchain *swapchain, unsigned width, unsigned height)
 {
     uint32_t most = swapchain->context->properties.limits.maxImageDimension2D;
-    if (swapchain->picture_extent.width == width && swapchain->picture_extent.height == height)
+    const VkExtent2D old = swapchain->picture_extent, extent = {width, height};
+    if (old.width == width && old.height == height)
         return swapchain->pixels.mapped;
     destroy_picture(swapchain);
-    if (width > most || height > most) {
-        log_error("a window shows pictures of up to %ux%u pixels, this one has %ux%u", most, most, width,
-                  height);
-        return NULL;
-    }
-    if (create_picture(swapchain, (VkExtent2D){width, height}) != STATUS_DONE) {
-        destroy_picture(swapchain);
-        return NULL;
-    }
-    swapchain->picture_extent = (VkExtent2D){width, height};
-    return swapchain->pixels.mapped;
+    if (width > most || height > most)
+        log_error("a window shows pictures of up to %ux%u pixels, not %ux%u", most, most, width, height);
+    else if (create_picture(swapchain, extent) == STATUS_DONE)
+        swapchain->picture_extent = extent;
+    return swapchain->picture_extent.width > 0 ? swapchain->pixels.mapped : NULL;
 }
 
 /* a b / c, rounded to nearest, at least 1. */
@@ -317,37 +308,25 @@ static void record(struct swapchain *swapchain, VkImage image)
     change_layout(swapchain, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 
-static enum status wait_for_fence(struct swapchain *swapchain)
-{
-    const VkDevice device = swapchain->context->device;
-    VULKAN_CALL(vkWaitForFences, device, 1, &swapchain->fence, VK_TRUE, fence_timeout);
-    VULKAN_CALL(vkResetFences, device, 1, &swapchain->fence);
-    return STATUS_DONE;
-
-error:
-    return STATUS_UNABLE;
-}
-
 /* Draws into the image that has been acquired, and waits until that is done. */
 static enum status draw(struct swapchain *swapchain, VkImage image)
 {
-    if (wait_for_fence(swapchain) != STATUS_DONE)
-        return STATUS_UNABLE;
     VULKAN_CALL(vkBeginCommandBuffer, swapchain->commands,
-                &(VkCommandBufferBeginInfo){
-                    .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                    .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
-                });
+                &(VkCommandBufferBeginInfo){.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO});
     record(swapchain, image);
     VULKAN_CALL(vkEndCommandBuffer, swapchain->commands);
     VULKAN_CALL(vkQueueSubmit, swapchain->context->queue, 1,
                 &(VkSubmitInfo){
                     .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
+                    .waitSemaphoreCount = 1,
+                    .pWaitSemaphores = &swapchain->acquired,
+                    .pWaitDstStageMask = &(VkPipelineStageFlags){VK_PIPELINE_STAGE_TRANSFER_BIT},
                     .commandBufferCount = 1,
                     .pCommandBuffers = &swapchain->commands,
                 },
-                swapchain->fence);
-    return wait_for_fence(swapchain);
+                VK_NULL_HANDLE);
+    VULKAN_CALL(vkQueueWaitIdle, swapchain->context->queue);
+    return STATUS_DONE;
 
 error:
     return STATUS_UNABLE;
@@ -355,15 +334,14 @@ error:
 
 enum status swapchain_show(struct swapchain *swapchain, bool *shown)
 {
-    VkResult result = VK_NOT_READY;
     uint32_t index;
     *shown = false;
     if (keep_size(swapchain) != STATUS_DONE)
         return STATUS_UNABLE;
-    if (!swapchain->handle || !swapchain->picture)
+    if (!swapchain->handle || swapchain->picture_extent.width == 0)
         return STATUS_DONE;
-    result = vkAcquireNextImageKHR(swapchain->context->device, swapchain->handle, acquire_timeout,
-                                   VK_NULL_HANDLE, swapchain->fence, &index);
+    VkResult result = vkAcquireNextImageKHR(swapchain->context->device, swapchain->handle, acquire_timeout,
+                                            swapchain->acquired, VK_NULL_HANDLE, &index);
     if (result == VK_SUCCESS || result == VK_SUBOPTIMAL_KHR) {
         if (draw(swapchain, swapchain->images[index]) != STATUS_DONE)
             return STATUS_UNABLE;

@@ -11,7 +11,6 @@
 #include "check/compare.h"
 #include "vulkan/probe.h"
 #include "watch/camera_motion.h"
-#include "watch/session.h"
 
 static const double wait_seconds = 0.02; /* between looks at the files */
 static const double rest_ms = 200;       /* without motion, until the camera counts as at rest */

@@ -199,6 +199,23 @@ idle() {
     finish
 }
 
+# The pipeline that renders in small portions cannot be built, of a picture that needs it: the next picture has
+# another one.
+no_resumable_pipeline() {
+    [ "$SANITIZE" = OFF ] || skip 'the sanitizer wants to be loaded first'
+    sed 's/look_at: [^]]*]/look_at: [0, 0, -12]/' "$SOURCE_DIR/scenes/hard/touching.yaml" >away.yaml
+    figure=away.yaml
+    small='--size 8x8 --max-bounces 64'
+    LD_PRELOAD=$NO_PIPELINES start
+    touch no_pipelines
+    turn 'rendering failed; picture 1 stays' cp "$SOURCE_DIR/scenes/hard/touching.yaml" s.yaml
+    said VK_ERROR_OUT_OF_DEVICE_MEMORY
+    rm no_pipelines
+    turn 'picture 2: pipeline rebuilt' cp away.yaml s.yaml
+    picture_is_rendered_scene
+    finish
+}
+
 checked_in_the_background() {
     start --check
     eventually grep -q '^vkwhitted: picture 1: agrees with the reference in all 2400 pixels' err
