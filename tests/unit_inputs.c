@@ -47,12 +47,12 @@ static void assert_taken(void)
 }
 
 /* A compilation from this file beside whitted.comp, and nothing else. */
-static bool follow(const char *path)
+static bool follow(const char *path, bool broken)
 {
     char *files = calloc(1, strlen(path) + 2);
     assert_non_null(files);
     strcpy(files, path);
-    bool held = inputs_follow(&inputs, &files);
+    bool held = inputs_follow(&inputs, &files, broken);
     assert_null(files);
     return held;
 }
@@ -87,6 +87,9 @@ static void ways_of_saving(void **state)
     assert_false(taken_within(300));
     write_file("shaders/may_be_missing.glsl");
     assert_taken();
+    assert_true(follow("outside", false));
+    write_file("shaders/may_be_missing.glsl");
+    assert_false(taken_within(300));
     assert_int_equal(unlink("shaders/unrelated.png") | unlink("shaders/.part.glsl") |
                          unlink("shaders/part.glsl~") | unlink("shaders/may_be_missing.glsl"),
                      0);
@@ -143,18 +146,18 @@ static void changed_while_read(void **state)
     write_file("outside");
     assert_taken();
     write_file("shaders/whitted.comp");
-    assert_false(follow("outside"));
+    assert_false(follow("outside", false));
     assert_taken();
     write_file("another"); /* not known before the compilation */
-    assert_false(follow("another"));
+    assert_false(follow("another", false));
     assert_taken();
-    assert_true(follow("another"));
+    assert_true(follow("another", false));
     assert_false(taken_within(50));
     write_file("outside");
     assert_false(taken_within(50));
     assert_int_equal(unlink("another"), 0);
     assert_taken();
-    assert_true(follow("missing"));
+    assert_true(follow("missing", false));
     write_file("missing");
     assert_taken();
 }
@@ -196,7 +199,7 @@ static int setup(void **state)
     if (inputs_create("scene", "shaders", &inputs) != STATUS_DONE)
         return -1;
     assert_taken();
-    assert_true(follow("outside"));
+    assert_true(follow("outside", true));
     return 0;
 }
 

@@ -111,7 +111,7 @@ static struct look look(const struct inputs *inputs)
     struct look look = {.settling_ms = closed_ms};
     clock_gettime(CLOCK_REALTIME, &look.now);
     look.state.scene = look_at(&look, inputs->scene_path);
-    look.state.shader = look_at_folder(&look, inputs->shader_folder);
+    look.state.shader = inputs->shader_broken ? look_at_folder(&look, inputs->shader_folder) : 0;
     for (const char *path = inputs->shader_files; path && *path; path += strlen(path) + 1)
         look.state.shader += look_at(&look, path);
     return look;
@@ -148,18 +148,17 @@ bool inputs_hold(const struct inputs *inputs)
     return same_state(look(inputs).state, inputs->taken);
 }
 
-bool inputs_follow(struct inputs *inputs, char **shader_files)
+bool inputs_follow(struct inputs *inputs, char **shader_files, bool broken)
 {
-    char *old_files = inputs->shader_files;
+    struct inputs old = *inputs;
+    inputs->shader_broken = broken;
     inputs->shader_files = *shader_files;
     *shader_files = NULL;
     const struct look followed = look(inputs); /* before the question whether the old ones still hold */
     double age_ms = milliseconds_between(followed.newest, followed.now);
-    bool new_one_changed = age_ms >= 0 && age_ms < clock_ms() - inputs->last_look_ms;
-    struct inputs old = *inputs;
-    old.shader_files = old_files;
+    bool new_one_changed = age_ms >= 0 && age_ms < clock_ms() - inputs->last_look_ms + fine_ms / 2;
     bool hold = inputs_hold(&old) && !new_one_changed;
-    free(old_files);
+    free(old.shader_files);
     inputs->seen.shader = followed.state.shader;
     inputs->taken = hold ? inputs->seen : (struct inputs_state){0};
     return hold;
@@ -189,7 +188,7 @@ enum status inputs_create(const char *scene_path, const char *shader_folder, str
     char installed[PATH_MAX];
     if (!shader_folder)
         shader_folder = find_installed(installed) ? installed : SHADERS_OF_SOURCE;
-    *inputs = (struct inputs){.scene_path = scene_path, .last_look_ms = clock_ms()};
+    *inputs = (struct inputs){.scene_path = scene_path, .shader_broken = true, .last_look_ms = clock_ms()};
     inputs->shader_folder = strdup(shader_folder);
     if (!inputs->shader_folder || asprintf(&inputs->shader_path, "%s/whitted.comp", shader_folder) < 0) {
         inputs->shader_path = NULL;

@@ -11,12 +11,14 @@ struct inputs_state {
     uint64_t scene, shader;
 };
 
-/* The files that a picture is made of: the scene; and of the shader, what was compiled last or is missing
- * there, and whatever else of *.comp, *.glsl and *.h lies in its folder, for that may be what mends it. */
+/* The files that a picture is made of: the scene, and what the shader was compiled from last; as long as that
+ * does not compile also what else of *.comp, *.glsl and *.h lies in its folder, for that may be what mends
+ * it. */
 struct inputs {
     const char *scene_path; /* the caller's */
     char *shader_folder, *shader_path;
-    char *shader_files;              /* as struct compilation has them; NULL: not compiled yet */
+    char *shader_files; /* as struct compilation has them; NULL: not compiled yet */
+    bool shader_broken;
     struct inputs_state taken, seen; /* when they were read last; when they were last looked at */
     double last_look_ms, unchanged_since_ms, saved_ms;
 };
@@ -39,8 +41,8 @@ char *inputs_read_scene(const struct inputs *inputs, size_t *length);
  * may be half a file, and they will be taken again. */
 bool inputs_hold(const struct inputs *inputs);
 
-/* The same after the shader has been compiled from these files, which are followed from now on, and which are
- * the caller's until then. */
-bool inputs_follow(struct inputs *inputs, char **shader_files);
+/* The same after the shader has been compiled from these files, broken or not. They are followed from now on,
+ * and were the caller's. */
+bool inputs_follow(struct inputs *inputs, char **shader_files, bool broken);
 
 #endif

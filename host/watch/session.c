@@ -111,7 +111,7 @@ static enum status compile_anew(struct session *session)
     if (status == STATUS_DONE)
         status = check_interface(session, &compilation);
     if ((status == STATUS_DONE || status == STATUS_REFUSED) &&
-        !inputs_follow(&session->inputs, &compilation.files))
+        !inputs_follow(&session->inputs, &compilation.files, status == STATUS_REFUSED))
         status = STATUS_DIFFERS;
     if (status == STATUS_DONE && (!session->code || session->code_size != compilation.size ||
                                   memcmp(session->code, compilation.words, compilation.size) != 0)) {
