@@ -50,16 +50,18 @@ static int spawn(const int files[FILES], char *const *arguments, pid_t *process)
 /* Waits for its end, which comes soon where it takes too long, and after Ctrl-C. Returns the wait status. */
 static int await(pid_t process)
 {
-    const struct rlimit cpu = {MOST_CPU_SECONDS, MOST_CPU_SECONDS + 1},
-                        memory = {MOST_MEMORY_BYTES, MOST_MEMORY_BYTES},
-                        file = {MOST_FILE_BYTES, MOST_FILE_BYTES}, core = {0};
+    const struct {
+        int resource;
+        rlim_t most;
+    } limits[] = {{RLIMIT_CPU, MOST_CPU_SECONDS},
+                  {RLIMIT_AS, MOST_MEMORY_BYTES},
+                  {RLIMIT_FSIZE, MOST_FILE_BYTES},
+                  {RLIMIT_CORE, 0}};
     struct pollfd ended = {.fd = pidfd_open(process, 0), .events = POLLIN};
     double end_ms = clock_ms() + most_ms;
     int outcome = -1;
-    prlimit(process, RLIMIT_CPU, &cpu, NULL);
-    prlimit(process, RLIMIT_AS, &memory, NULL);
-    prlimit(process, RLIMIT_FSIZE, &file, NULL);
-    prlimit(process, RLIMIT_CORE, &core, NULL);
+    for (size_t i = 0; i < sizeof limits / sizeof *limits; ++i)
+        prlimit(process, limits[i].resource, &(struct rlimit){limits[i].most, limits[i].most + 1}, NULL);
     while (ended.fd >= 0 && poll(&ended, 1, 100) <= 0)
         if (interrupt_requested() || clock_ms() > end_ms)
             kill(process, SIGKILL);
@@ -196,7 +198,7 @@ static enum status take_result(const char *path, const int files[FILES], int out
 
 enum status shader_compile(const char *path, const char *const *options, struct compilation *compilation)
 {
-    int files[FILES], outcome;
+    int files[FILES], outcome = -1;
     bool created = true;
     *compilation = (struct compilation){0};
     for (int i = 0; i < FILES; ++i)

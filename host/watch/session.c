@@ -213,7 +213,7 @@ enum status session_show(struct session *session, const struct image *image)
 
 void session_render(struct session *session, double saved_ms)
 {
-    double compile_ms, pipeline_ms;
+    double compile_ms, pipeline_ms = 0;
     struct picture *picture = prepare(session, 1);
     if (!picture) {
         tell_failure(session, "scene refused", "see the terminal", 0);
