@@ -59,7 +59,8 @@ static bool follow(const char *path, bool broken)
 
 static void ways_of_saving(void **state)
 {
-    static const char *const paths[] = {"scene", "shaders/whitted.comp", "shaders/sub/part.glsl", "outside"};
+    static const char *const paths[] = {"scene", "sha{d}[e]rs/whitted.comp", "sha{d}[e]rs/sub/part.glsl",
+                                        "outside"};
     (void)state;
     for (size_t i = 0; i < 4; ++i) {
         const char *path = paths[i];
@@ -81,17 +82,17 @@ static void ways_of_saving(void **state)
         assert_int_equal(truncate(path, 1), 0);
         assert_taken();
     }
-    write_file("shaders/unrelated.png");
-    write_file("shaders/.part.glsl");
-    write_file("shaders/part.glsl~");
+    write_file("sha{d}[e]rs/unrelated.png");
+    write_file("sha{d}[e]rs/.part.glsl");
+    write_file("sha{d}[e]rs/part.glsl~");
     assert_false(taken_within(300));
-    write_file("shaders/may_be_missing.glsl");
+    write_file("sha{d}[e]rs/may_be_missing.glsl");
     assert_taken();
     assert_true(follow("outside", false));
-    write_file("shaders/may_be_missing.glsl");
+    write_file("sha{d}[e]rs/may_be_missing.glsl");
     assert_false(taken_within(300));
-    assert_int_equal(unlink("shaders/unrelated.png") | unlink("shaders/.part.glsl") |
-                         unlink("shaders/part.glsl~") | unlink("shaders/may_be_missing.glsl"),
+    assert_int_equal(unlink("sha{d}[e]rs/unrelated.png") | unlink("sha{d}[e]rs/.part.glsl") |
+                         unlink("sha{d}[e]rs/part.glsl~") | unlink("sha{d}[e]rs/may_be_missing.glsl"),
                      0);
 }
 
@@ -145,7 +146,7 @@ static void changed_while_read(void **state)
     assert_taken();
     write_file("outside");
     assert_taken();
-    write_file("shaders/whitted.comp");
+    write_file("sha{d}[e]rs/whitted.comp");
     assert_false(follow("outside", false));
     assert_taken();
     write_file("another"); /* not known before the compilation */
@@ -190,13 +191,14 @@ static void quick_saves(void **state)
 
 static int setup(void **state)
 {
-    if (test_folder_setup(state) != 0 || mkdir("shaders", 0777) != 0 || mkdir("shaders/sub", 0777) != 0)
+    if (test_folder_setup(state) != 0 || mkdir("sha{d}[e]rs", 0777) != 0 ||
+        mkdir("sha{d}[e]rs/sub", 0777) != 0)
         return -1;
     write_file("scene");
-    write_file("shaders/whitted.comp");
-    write_file("shaders/sub/part.glsl");
+    write_file("sha{d}[e]rs/whitted.comp");
+    write_file("sha{d}[e]rs/sub/part.glsl");
     write_file("outside");
-    if (inputs_create("scene", "shaders", &inputs) != STATUS_DONE)
+    if (inputs_create("scene", "sha{d}[e]rs", &inputs) != STATUS_DONE)
         return -1;
     assert_taken();
     assert_true(follow("outside", true));
@@ -206,9 +208,9 @@ static int setup(void **state)
 static int teardown(void **state)
 {
     inputs_destroy(&inputs);
-    unlink("shaders/sub/part.glsl");
-    rmdir("shaders/sub");
-    unlink("shaders/whitted.comp");
+    unlink("sha{d}[e]rs/sub/part.glsl");
+    rmdir("sha{d}[e]rs/sub");
+    unlink("sha{d}[e]rs/whitted.comp");
     return test_folder_teardown(state);
 }
 
