@@ -248,10 +248,16 @@ void session_render(struct session *session, double saved_ms)
 
 void session_take(struct session *session, double saved_ms)
 {
+    size_t length;
+    char *text = inputs_read_scene(&session->inputs, &length);
+    if (!inputs_hold(&session->inputs)) {
+        free(text);
+        return;
+    }
     free(session->scene_text);
-    session->scene_text = inputs_read_scene(&session->inputs, &session->scene_length);
-    if (inputs_hold(&session->inputs))
-        session_render(session, saved_ms);
+    session->scene_text = text;
+    session->scene_length = length;
+    session_render(session, saved_ms);
 }
 
 void session_preview(struct session *session, unsigned reduction)
