@@ -104,6 +104,22 @@ static void test_uncovered(void **state)
     assert_shows(WIDTH, HEIGHT);
 }
 
+/* Larger than any device's images. */
+static void test_too_large(void **state)
+{
+    (void)state;
+    char line[256];
+    test_messages_begin();
+    unsigned char *place = display_picture(display, 1 << 20, 1);
+    int lines = test_messages_end(line);
+    assert_null(place);
+    assert_int_equal(lines, 1);
+    assert_non_null(strstr(line, "error: a window shows pictures of up to "));
+    wait_for_input(0.01);
+    assert_int_equal(show_picture(), STATUS_DONE);
+    assert_shows(WIDTH, HEIGHT);
+}
+
 static void test_title(void **state)
 {
     (void)state;
@@ -141,6 +157,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_dragged_corner, open_window, close_window),
         cmocka_unit_test_setup_teardown(test_hidden_and_minimised, open_window, close_window),
         cmocka_unit_test_setup_teardown(test_uncovered, open_window, close_window),
+        cmocka_unit_test_setup_teardown(test_too_large, open_window, close_window),
         cmocka_unit_test_setup_teardown(test_title, open_window, close_window),
     };
     const struct CMUnitTest without_server[] = {cmocka_unit_test(test_no_display)};
