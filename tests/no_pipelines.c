@@ -1,10 +1,11 @@
-/* To be loaded before the Vulkan loader: no compute pipeline is built while there is a file "no_pipelines" in the
- * working folder. */
+/* To be loaded before the Vulkan loader: no compute pipeline is built while there is a file "no_pipelines" in
+ * the working folder. */
 #include <dlfcn.h>
 #include <unistd.h>
 #include <vulkan/vulkan.h>
 
-VKAPI_ATTR VkResult VKAPI_CALL vkCreateComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
+VKAPI_ATTR VkResult VKAPI_CALL vkCreateComputePipelines(VkDevice device, VkPipelineCache cache,
+                                                        uint32_t count,
                                                         const VkComputePipelineCreateInfo *infos,
                                                         const VkAllocationCallbacks *allocator,
                                                         VkPipeline *pipelines)
