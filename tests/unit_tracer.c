@@ -125,6 +125,17 @@ static void scene_in_storage_buffers(void **state)
     test_context->properties.limits.maxUniformBufferRange = real_limit;
 }
 
+/* A device whose memory the host reads slowly: pictures are copied to other memory for it. */
+static void picture_is_copied_for_the_host(void **state)
+{
+    (void)state;
+    const VkPhysicalDeviceMemoryProperties real_memory = test_context->memory;
+    for (uint32_t i = 0; i < real_memory.memoryTypeCount; ++i)
+        test_context->memory.memoryTypes[i].propertyFlags &= ~(VkFlags)VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    compare_with_whole(whole_window);
+    test_context->memory = real_memory;
+}
+
 /* What fast mode may change is rounding: few pixels come out visibly different (those that look at an edge).
  */
 static void fast_mode_is_close(void **state)
@@ -255,6 +266,7 @@ int main(void)
         cmocka_unit_test(tile_size),
         cmocka_unit_test(crop),
         cmocka_unit_test(scene_in_storage_buffers),
+        cmocka_unit_test(picture_is_copied_for_the_host),
         cmocka_unit_test(fast_mode_is_close),
         cmocka_unit_test(ray_counts),
         cmocka_unit_test(ray_counts_of_one_pixel),

@@ -23,6 +23,7 @@ struct shader_choice tracer_shader(const struct vulkan_context *context, const s
         [WHITTED_EXACT] = WHITTED_EXACT_EVENTS,
         [WHITTED_CORRECTED] = WHITTED_CORRECTED_EVENTS,
         [WHITTED_DOUBLE] = WHITTED_DOUBLE_EVENTS,
+        [WHITTED_FAST] = WHITTED_FAST, /* which records none */
     };
     bool native = context->arithmetic.division_exact && context->arithmetic.root_exact;
     enum whitted_variant variant = options->double_precision ? WHITTED_DOUBLE
@@ -125,8 +126,9 @@ static enum status become_resumable(struct tracer *tracer)
     return STATUS_DONE;
 }
 
-/* Adds what the last dispatch has traced in so many pixels; the values do not tell the primary rays. A
- * dispatch cannot trace 2^32 rays for a pixel: drivers end it long before. */
+/* Adds what the last dispatch has traced in so many pixels; the values do not tell the primary rays. No count
+ * wraps around: 2^32 rays would take the pixel's invocation minutes, and a driver ends it before, lavapipe
+ * after 65535 turns of its loops, a graphics card's after some seconds. */
 static void add_rays(const struct dispatcher *dispatcher, size_t pixels, struct reference_rays *rays)
 {
     const uint32_t *counts = dispatcher->values;

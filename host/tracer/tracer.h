@@ -47,7 +47,7 @@ struct tracer_values {
 
 /* Renders the window of the picture. *dispatch_ms gets the time that the device spent (device timestamps
  * where it has them, otherwise from submission to completion). Advances progress, whose unit is a pixel.
- * STATUS_INTERRUPTED after Ctrl-C. After a failure (reported) the tracer can be used as before. */
+ * STATUS_INTERRUPTED after Ctrl-C. A failure (reported) leaves the pipeline as it was. */
 enum status tracer_render_values(struct tracer *tracer, struct window window,
                                  const struct tracer_values *values, struct progress *progress,
                                  double *dispatch_ms);
