@@ -45,7 +45,6 @@ enum status bench_deepest(const struct scene *scene, const struct picture_settin
     struct packed_scene packed;
     struct picture_settings pilot = *settings;
     pilot.samples = pilot.light_samples = 1;
-    pilot.warned = true;
     *deepest = settings->max_bounces;
     *has_secondary_rays = false;
     for (size_t i = 0; i < scene->object_count; ++i)
@@ -117,7 +116,6 @@ enum status ground_truth_create(const struct scene *scene, struct picture_settin
         sampled = sampled || scene->lights[i].type == LIGHT_QUAD;
     *truth = (struct ground_truth){.precision = sampled ? PRECISION_DOUBLE : PRECISION_QUAD};
     settings.max_bounces = deepest;
-    settings.warned = true;
     if (sampled)
         settings.light_samples = effort->samples;
     enum status status = compute(scene, &settings, sampled ? effort->double_work : effort->quad_work,
@@ -138,7 +136,6 @@ enum status ground_truth_create_filtered(const struct scene *scene, struct pictu
     *truth = (struct ground_truth){.precision = PRECISION_DOUBLE};
     settings.samples = effort->samples;
     settings.light_samples = 1; /* of each pixel sample: together as many as those */
-    settings.warned = true;
     enum status status = compute(scene, &settings, effort->double_work, progress, progress_total, truth);
     snprintf(truth->text, sizeof truth->text, "the reference in double with %u samples a pixel",
              settings.samples);

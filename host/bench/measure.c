@@ -49,7 +49,6 @@ enum status bench_point_start(struct vulkan_context *context, const struct scene
                               struct bench_point *point, struct image *image)
 {
     struct picture_settings picture = point->setting.picture;
-    picture.warned = true;
     double start = clock_ms();
     enum status status = pack_scene(scene, &picture, &point->packed);
     if (status == STATUS_DONE && point->setting.backend == BACKEND_VULKAN) {

@@ -7,6 +7,7 @@
 #include "base/clock.h"
 #include "bench/document.h"
 #include "bench/pictures.h"
+#include "scene/warnings.h"
 
 /* What a bench may cost. */
 struct effort {
@@ -63,7 +64,6 @@ static enum status judge_rounding(struct bench *bench)
 {
     struct packed_scene packed;
     struct picture_settings picture = bench->picture;
-    picture.warned = true;
     enum status status = pack_scene(&bench->scene, &picture, &packed);
     if (status != STATUS_DONE)
         return status;
@@ -294,6 +294,7 @@ enum status bench_scene(const struct bench_options *options, struct vulkan_conte
     enum status status = scene_read(path, &bench.scene);
     if (status != STATUS_DONE)
         return status;
+    scene_warn(&bench.scene);
     bench.picture = (struct picture_settings){
         .width = options->width ? options->width : bench.scene.width,
         .height = options->height ? options->height : bench.scene.height,

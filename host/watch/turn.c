@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "scene/scene.h"
+#include "scene/warnings.h"
 
 /* Says that the picture on show is not what the files say. */
 static void tell_failure(struct watching *watching, const char *what, const char *details,
@@ -67,6 +68,8 @@ static enum status read_scene(struct watching *watching, unsigned reduction)
     enum status status = scene_read_text(inputs->scene_path, inputs->scene, inputs->scene_length, &scene);
     if (status != STATUS_DONE)
         return status;
+    if (reduction == 1)
+        scene_warn(&scene);
     place_camera(watching, &scene);
     const struct job_options options = reduced_options(&watching->options->job, &scene, reduction);
     watching->wanted = picture_create();
