@@ -68,7 +68,7 @@ JSON_GET=$<TARGET_FILE:json_get>;SOURCE_DIR=${PROJECT_SOURCE_DIR};SANITIZE=${VKW
 endfunction()
 add_cli_tests(usage no_command unknown_command unknown_option missing_argument size numbers crop crop_outside
               option_of_another_command choices impossible_together several_scenes help_and_version)
-add_cli_tests(input missing_scene folder_as_scene bad_scene bad_scene_among_good_ones)
+add_cli_tests(input missing_scene folder_as_scene bad_scene bad_scene_among_good_ones scene_that_is_warned_of)
 add_cli_tests(output formats same_bits_on_both_backends exr_metadata transfer unknown_suffix unwritable_folder
               missing_folder disk_full existing_file_kept_on_failure crop_of_16384 stats)
 add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer loops_ended_early

@@ -25,6 +25,7 @@ add_unit_test(scene_file)
 add_unit_test(shader_compiler)
 target_compile_definitions(unit_shader_compiler PRIVATE SHADER_DEBUG_INFO=$<BOOL:${VKWHITTED_SHADER_DEBUG_INFO}>)
 add_unit_test(srgb)
+add_unit_test(warnings)
 
 # These open a device.
 foreach(module pixel properties total_reflection tracer truncation values)

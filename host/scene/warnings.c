@@ -15,11 +15,15 @@ struct overlaps {
     const struct scene_object *a, *b;
 };
 
+/* The cheap tests first: this is asked of many pairs. */
 static bool spheres_overlap(const struct scene_object *a, const struct scene_object *b)
 {
     struct dvec3 first = dvec3_of(a->sphere.center), second = dvec3_of(b->sphere.center);
-    double apart = dvec3_length(dvec3_subtract(first, second));
+    struct dvec3 between = dvec3_subtract(first, second);
     double sum = a->sphere.radius + b->sphere.radius, difference = fabs(a->sphere.radius - b->sphere.radius);
+    if (fabs(between.y) > sum || fabs(between.z) > sum)
+        return false;
+    double apart = dvec3_length(between);
     double touching = resolution * (dvec3_length(first) + dvec3_length(second) + sum);
     bool coincide = apart <= touching && difference <= touching;
     return coincide || (apart < sum - touching && apart > difference + touching);
@@ -114,8 +118,9 @@ static void warn_of_overlaps(const struct scene *scene)
         snprintf(others, sizeof others, " (and %zu other pair%s)", found.count - 1,
                  found.count > 2 ? "s" : "");
     log_warning(
-        "%s:%d:%d: transparent bodies \"%s\" and \"%s\" overlap%s, which the model does not cover; one "
-        "that is wholly inside another is fine, its ior relative to that one's (a bubble: 1/1.5)",
+        "%s:%d:%d: transparent bodies \"%s\" and \"%s\" overlap%s, which the model does not cover; a "
+        "body wholly inside another is no mistake, if its ior is relative to that one's (air in glass: "
+        "1/1.5)",
         scene->path, found.b->place.line, found.b->place.column, found.a->name, found.b->name, others);
 }
 
