@@ -25,18 +25,26 @@ static void read_text(struct diagnostics *report, struct fy_token *token, struct
     fy_token_iter_destroy(pieces);
 }
 
+static struct fy_node *alias_target(struct fy_node *alias)
+{
+    return fy_anchor_node(
+        fy_document_lookup_anchor_by_token(fy_node_document(alias), fy_node_get_scalar_token(alias)));
+}
+
 struct yaml_value yaml_read(struct diagnostics *report, struct fy_node *node)
 {
-    struct yaml_value value = {.written = node, .node = node};
-    if (fy_node_is_alias(node))
-        value.node = fy_anchor_node(
-            fy_document_lookup_anchor_by_token(fy_node_document(node), fy_node_get_scalar_token(node)));
+    struct yaml_value value = {.written = node, .node = fy_node_is_alias(node) ? alias_target(node) : node};
     value.type = fy_node_get_type(value.node);
     struct fy_token *token = fy_node_get_scalar_token(value.node);
     value.plain = value.type == FYNT_SCALAR && fy_node_get_style(value.node) == FYNS_PLAIN;
     if (token)
         read_text(report, token, &value);
     return value;
+}
+
+static struct scene_place mark_place(const struct fy_mark *mark)
+{
+    return mark ? (struct scene_place){mark->line + 1, mark->column + 1} : (struct scene_place){1, 1};
 }
 
 /* An empty value counts as standing where its key does: versions of libfyaml differ in where they see it. */
@@ -61,12 +69,10 @@ struct scene_place yaml_place(struct diagnostics *report, struct fy_node *node)
     node = node_to_place(report, node);
     fy_document_iterator_node_start(iterator, node);
     struct fy_event *event = fy_document_iterator_body_next(iterator);
-    const struct fy_mark *mark = fy_event_start_mark(event);
+    struct scene_place place = mark_place(fy_event_start_mark(event));
     enum fy_node_style style = fy_node_get_style(node);
-    bool behind = style == FYNS_ALIAS || style == FYNS_SINGLE_QUOTED || style == FYNS_DOUBLE_QUOTED;
-    struct scene_place place = {1, 1};
-    if (mark) /* of an alias or a text in quotes, it is one too far */
-        place = (struct scene_place){mark->line + 1, mark->column + !behind};
+    if (style == FYNS_ALIAS || style == FYNS_SINGLE_QUOTED || style == FYNS_DOUBLE_QUOTED)
+        place.column--; /* the mark stands behind the asterisk or the quote */
     report->no_memory = report->no_memory || !event;
     fy_document_iterator_event_free(iterator, event);
     fy_document_iterator_destroy(iterator);
@@ -93,6 +99,11 @@ static size_t printable_character(const unsigned char *text, size_t length)
     return code < least[size] || code > 0x10FFFF || surrogate || code == 0xFFFE || code == 0xFFFF ? 0 : size;
 }
 
+static int bracket(char byte)
+{
+    return byte == '[' || byte == '{' ? 1 : byte == ']' || byte == '}' ? -1 : 0;
+}
+
 /* libfyaml 0.7.12 drops what follows a NUL or bad UTF-8. */
 static void check_characters(struct diagnostics *report)
 {
@@ -103,9 +114,7 @@ static void check_characters(struct diagnostics *report)
         size = printable_character(text + at, report->length - at);
         if (size == 0)
             report_error(report, place, "must be printable UTF-8 text, has the byte 0x%02X", text[at]);
-        open += text[at] == '[' || text[at] == '{'                 ? 1
-                : open > 0 && (text[at] == ']' || text[at] == '}') ? -1
-                                                                   : 0;
+        open = open + bracket(report->text[at]) > 0 ? open + bracket(report->text[at]) : 0;
         ampersands += text[at] == '&';
         if (open > MAX_OPEN || ampersands > MAX_OPEN)
             report_error(report, place, "more than %d %s", MAX_OPEN,
@@ -116,37 +125,14 @@ static void check_characters(struct diagnostics *report)
     }
 }
 
-static void drop_output(struct fy_diag *diag, void *user, const char *text, size_t length)
-{
-    (void)diag;
-    (void)user;
-    (void)text;
-    (void)length;
-}
-
-/* A diagnostic that keeps libfyaml's errors and prints nothing. */
-static struct fy_diag *create_diagnostic(void)
-{
-    struct fy_diag_cfg config;
-    fy_diag_cfg_default(&config);
-    config.fp = NULL;
-    config.output_fn = drop_output;
-    struct fy_diag *diag = fy_diag_create(&config);
-    if (diag)
-        fy_diag_set_collect_errors(diag, true);
-    return diag;
-}
-
 /* The one document, or NULL where the text has none or more, or is not YAML. */
 static struct fy_document *parse(struct diagnostics *report, struct fy_parser *parser, struct fy_diag *diag)
 {
     struct fy_document *document = fy_parse_load_document(parser);
     struct fy_document *second = document ? fy_parse_load_document(parser) : NULL;
-    if (second) {
-        const struct fy_mark *mark = fy_document_state_start_mark(fy_document_get_document_state(second));
-        report_error(report, (struct scene_place){mark->line + 1, mark->column + 1},
+    if (second)
+        report_error(report, mark_place(fy_document_state_start_mark(fy_document_get_document_state(second))),
                      "a second document; a scene file must hold one");
-    }
     fy_document_destroy(second);
     void *previous = NULL;
     for (struct fy_diag_error *error; (error = fy_diag_errors_iterate(diag, &previous));)
@@ -170,21 +156,19 @@ static bool is_known(struct fy_node *alias, struct fy_node *target)
 static void check_node(struct diagnostics *report, struct fy_node *node)
 {
     struct fy_token *tag = fy_node_get_tag_token(node);
-    const struct fy_mark *mark = tag ? fy_token_start_mark(tag) : NULL;
-    if (mark)
-        report_error(report, (struct scene_place){mark->line + 1, mark->column + 1},
+    if (tag)
+        report_error(report, mark_place(fy_token_start_mark(tag)),
                      "scene files have no YAML tags (\"!...\")");
-    struct yaml_value value = yaml_read(report, node);
-    if (fy_node_is_alias(node) && !is_known(node, value.node)) {
-        char quote[REPORT_QUOTE_SIZE];
+    bool alias = fy_node_is_alias(node), quoted = fy_node_get_style(node) == FYNS_SINGLE_QUOTED;
+    if (alias && !is_known(node, alias_target(node))) {
         struct yaml_value name = {.written = node};
+        char quote[REPORT_QUOTE_SIZE];
         read_text(report, fy_node_get_scalar_token(node), &name);
         report_error(report, yaml_place(report, node), "alias %s: no such anchor before it",
                      report_quote(name.text, name.length, quote));
     }
-    if (fy_node_get_style(node) == FYNS_SINGLE_QUOTED && strstr(value.text, "''"))
-        report_error(report,
-                     yaml_place(report, node), /* libfyaml 0.7.12 makes 3 quotes of the 2 in 'a''''b' */
+    if (quoted && strstr(yaml_read(report, node).text, "''")) /* 0.7.12 makes 3 of the 2 in 'a''''b' */
+        report_error(report, yaml_place(report, node),
                      "quotes in a row: this text needs double quotes around it");
 }
 
@@ -205,28 +189,29 @@ struct fy_document *yaml_load(struct diagnostics *report)
     check_characters(report);
     if (report->count > 0)
         return NULL;
-    struct fy_diag *diag = create_diagnostic();
-    struct fy_parser *parser =
-        !diag ? NULL
-              : fy_parser_create(&(struct fy_parse_cfg){
-                    .search_path = "",
-                    .flags = FYPCF_DEFAULT_VERSION_1_2 | FYPCF_JSON_NONE | FYPCF_ALLOW_DUPLICATE_KEYS,
-                    .diag = diag,
-                });
-    struct fy_document *document = NULL;
+    struct fy_diag_cfg quiet;
+    fy_diag_cfg_default(&quiet);
+    quiet.fp = NULL;
+    struct fy_diag *diag = fy_diag_create(&quiet);
+    fy_diag_set_collect_errors(diag, true);
     errno = 0;
-    if (parser && fy_parser_set_string(parser, report->text, report->length) == 0)
+    struct fy_parser *parser = fy_parser_create(&(struct fy_parse_cfg){
+        .search_path = "",
+        .flags = FYPCF_DEFAULT_VERSION_1_2 | FYPCF_JSON_NONE | FYPCF_ALLOW_DUPLICATE_KEYS,
+        .diag = diag,
+    });
+    struct fy_document *document = NULL;
+    if (diag && parser && fy_parser_set_string(parser, report->text, report->length) == 0)
         document = parse(report, parser, diag);
     else
         report->no_memory = true;
     if (document && report->count == 0)
         check_nodes(report, document);
     report->no_memory = report->no_memory || errno == ENOMEM;
-    if (report->count > 0 || report->no_memory) {
-        fy_document_destroy(document);
-        document = NULL;
-    }
     fy_parser_destroy(parser);
     fy_diag_destroy(diag);
-    return document;
+    if (report->count == 0 && !report->no_memory)
+        return document;
+    fy_document_destroy(document);
+    return NULL;
 }
