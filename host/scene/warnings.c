@@ -9,79 +9,80 @@
  * touching, not as crossing. */
 static const double resolution = 0x1p-21;
 
+/* Signed: positive outside a sphere and on the side of a plane's normal. */
+static double distance_from(const struct scene_object *surface, struct dvec3 point)
+{
+    if (surface->type == OBJECT_SPHERE)
+        return dvec3_length(dvec3_subtract(point, dvec3_of(surface->sphere.center))) - surface->sphere.radius;
+    return dvec3_dot(dvec3_unit(dvec3_of(surface->plane.normal)),
+                     dvec3_subtract(point, dvec3_of(surface->plane.point)));
+}
+
+static bool planes_overlap(const struct scene_object *a, const struct scene_object *b)
+{
+    struct dvec3 normal = dvec3_unit(dvec3_of(a->plane.normal)),
+                 other = dvec3_unit(dvec3_of(b->plane.normal));
+    struct dvec3 point = dvec3_of(b->plane.point);
+    return dvec3_length(dvec3_cross(normal, other)) > resolution ||
+           (dvec3_dot(normal, other) > 0 &&
+            fabs(distance_from(a, point)) <= resolution * dvec3_length(point));
+}
+
+/* Whether the surface of a ball crosses the other surface, that of a larger ball or of a plane. */
+static bool ball_overlaps(const struct scene_object *ball, const struct scene_object *other)
+{
+    struct dvec3 center = dvec3_of(ball->sphere.center);
+    double radius = ball->sphere.radius, touching = resolution * (dvec3_length(center) + radius);
+    double distance = distance_from(other, center);
+    bool coincide = other->type == OBJECT_SPHERE && other->sphere.radius - radius <= touching &&
+                    fabs(distance + radius) <= touching;
+    return coincide || fabs(distance) < radius - touching;
+}
+
+/* Whether the surfaces of two bodies cross, or coincide with both bodies on the same side. What lies behind a
+ * plane is its body. */
+static bool overlap(const struct scene_object *a, const struct scene_object *b)
+{
+    if (a->type == OBJECT_PLANE && b->type == OBJECT_PLANE)
+        return planes_overlap(a, b);
+    bool a_is_ball =
+        b->type == OBJECT_PLANE || (a->type == OBJECT_SPHERE && a->sphere.radius <= b->sphere.radius);
+    return a_is_ball ? ball_overlaps(a, b) : ball_overlaps(b, a);
+}
+
+static double lower_end(const struct scene_object *body, int axis)
+{
+    return body->type == OBJECT_SPHERE ? body->sphere.center[axis] - body->sphere.radius : -INFINITY;
+}
+
+static double upper_end(const struct scene_object *body, int axis)
+{
+    return body->type == OBJECT_SPHERE ? body->sphere.center[axis] + body->sphere.radius : INFINITY;
+}
+
+static bool apart(const struct scene_object *a, const struct scene_object *b, int axis)
+{
+    return lower_end(a, axis) > upper_end(b, axis) || lower_end(b, axis) > upper_end(a, axis);
+}
+
+static int compare_lower_ends(const void *a, const void *b)
+{
+    double first = lower_end(*(const struct scene_object *const *)a, 0);
+    double second = lower_end(*(const struct scene_object *const *)b, 0);
+    return (first > second) - (first < second);
+}
+
 /* The pairs of bodies that overlap. In the first one, the second body stands first in the file. */
 struct overlaps {
     size_t count;
     const struct scene_object *a, *b;
 };
 
-/* The cheap tests first: this is asked of many pairs. */
-static bool spheres_overlap(const struct scene_object *a, const struct scene_object *b)
-{
-    struct dvec3 first = dvec3_of(a->sphere.center), second = dvec3_of(b->sphere.center);
-    struct dvec3 between = dvec3_subtract(first, second);
-    double sum = a->sphere.radius + b->sphere.radius, difference = fabs(a->sphere.radius - b->sphere.radius);
-    if (fabs(between.y) > sum || fabs(between.z) > sum)
-        return false;
-    double apart = dvec3_length(between);
-    double touching = resolution * (dvec3_length(first) + dvec3_length(second) + sum);
-    bool coincide = apart <= touching && difference <= touching;
-    return coincide || (apart < sum - touching && apart > difference + touching);
-}
-
-static bool sphere_and_plane_overlap(const struct scene_object *sphere, const struct scene_object *plane)
-{
-    struct dvec3 center = dvec3_of(sphere->sphere.center), point = dvec3_of(plane->plane.point);
-    double height = dvec3_dot(dvec3_unit(dvec3_of(plane->plane.normal)), dvec3_subtract(center, point));
-    double touching = resolution * (dvec3_length(center) + dvec3_length(point) + sphere->sphere.radius);
-    return fabs(height) < sphere->sphere.radius - touching;
-}
-
-static bool planes_overlap(const struct scene_object *a, const struct scene_object *b)
-{
-    struct dvec3 first = dvec3_of(a->plane.point), second = dvec3_of(b->plane.point);
-    struct dvec3 normal = dvec3_unit(dvec3_of(a->plane.normal)),
-                 other = dvec3_unit(dvec3_of(b->plane.normal));
-    if (dvec3_length(dvec3_cross(normal, other)) > resolution)
-        return true;
-    double touching = resolution * (dvec3_length(first) + dvec3_length(second));
-    return dvec3_dot(normal, other) > 0 && fabs(dvec3_dot(normal, dvec3_subtract(first, second))) <= touching;
-}
-
-/* Whether the surfaces of two bodies cross, or coincide with both bodies on the same side. A plane's body is
- * all that lies behind it. */
-static bool overlap(const struct scene_object *a, const struct scene_object *b)
-{
-    if (a->type == OBJECT_SPHERE && b->type == OBJECT_SPHERE)
-        return spheres_overlap(a, b);
-    if (a->type == OBJECT_PLANE && b->type == OBJECT_PLANE)
-        return planes_overlap(a, b);
-    return a->type == OBJECT_SPHERE ? sphere_and_plane_overlap(a, b) : sphere_and_plane_overlap(b, a);
-}
-
-static double leftmost(const struct scene_object *object)
-{
-    return object->type == OBJECT_SPHERE ? object->sphere.center[0] - object->sphere.radius : -INFINITY;
-}
-
-static double rightmost(const struct scene_object *object)
-{
-    return object->type == OBJECT_SPHERE ? object->sphere.center[0] + object->sphere.radius : INFINITY;
-}
-
-static int compare_leftmost(const void *a, const void *b)
-{
-    double first = leftmost(*(const struct scene_object *const *)a);
-    double second = leftmost(*(const struct scene_object *const *)b);
-    return (first > second) - (first < second);
-}
-
 static void count_overlap(struct overlaps *overlaps, const struct scene_object *a,
                           const struct scene_object *b)
 {
     const struct scene_object *earlier = a < b ? a : b, *later = a < b ? b : a;
-    overlaps->count++;
-    if (overlaps->count == 1 || later < overlaps->b || (later == overlaps->b && earlier < overlaps->a)) {
+    if (overlaps->count++ == 0 || later < overlaps->b || (later == overlaps->b && earlier < overlaps->a)) {
         overlaps->a = earlier;
         overlaps->b = later;
     }
@@ -97,10 +98,11 @@ static bool find_overlaps(const struct scene *scene, struct overlaps *overlaps)
     for (size_t i = 0; i < scene->object_count; ++i)
         if (scene->materials[scene->objects[i].material].type == MATERIAL_TRANSPARENT)
             bodies[count++] = &scene->objects[i];
-    qsort(bodies, count, sizeof *bodies, compare_leftmost);
+    qsort(bodies, count, sizeof *bodies, compare_lower_ends);
     for (size_t i = 0; i < count; ++i)
-        for (size_t k = i + 1; k < count && leftmost(bodies[k]) < rightmost(bodies[i]); ++k)
-            if (overlap(bodies[i], bodies[k]))
+        for (size_t k = i + 1; k < count && !apart(bodies[i], bodies[k], 0); ++k)
+            if (!apart(bodies[i], bodies[k], 1) && !apart(bodies[i], bodies[k], 2) &&
+                overlap(bodies[i], bodies[k]))
                 count_overlap(overlaps, bodies[i], bodies[k]);
     free(bodies);
     return true;
@@ -124,47 +126,39 @@ static void warn_of_overlaps(const struct scene *scene)
         scene->path, found.b->place.line, found.b->place.column, found.a->name, found.b->name, others);
 }
 
-/* Whether the light shines on some point of the object, with u and v as they are or swapped. */
-static bool shines_on(const struct scene_light *light, bool swapped, const struct scene_object *object)
-{
-    struct dvec3 axis = dvec3_unit(dvec3_cross(dvec3_of(light->quad.u), dvec3_of(light->quad.v)));
-    axis = dvec3_scale(swapped ? 1 : -1, axis);
-    if (object->type == OBJECT_SPHERE) {
-        struct dvec3 center = dvec3_of(object->sphere.center);
-        return dvec3_dot(axis, dvec3_subtract(center, dvec3_of(light->quad.corner))) > -object->sphere.radius;
-    }
-    return dvec3_length(dvec3_cross(axis, dvec3_unit(dvec3_of(object->plane.normal)))) > resolution ||
-           dvec3_dot(axis, dvec3_subtract(dvec3_of(object->plane.point), dvec3_of(light->quad.corner))) > 0;
-}
-
+/* Whether the light shines on some point of a matte object, with u and v as they are or swapped. */
 static bool shines_on_any(const struct scene *scene, const struct scene_light *light, bool swapped)
 {
-    for (size_t i = 0; i < scene->object_count; ++i)
-        if (scene->materials[scene->objects[i].material].type == MATERIAL_MATTE &&
-            shines_on(light, swapped, &scene->objects[i]))
+    struct dvec3 back = dvec3_unit(dvec3_cross(dvec3_of(light->quad.u), dvec3_of(light->quad.v)));
+    struct dvec3 axis = dvec3_scale(swapped ? 1 : -1, back);
+    for (size_t i = 0; i < scene->object_count; ++i) {
+        const struct scene_object *object = &scene->objects[i];
+        bool sphere = object->type == OBJECT_SPHERE;
+        struct dvec3 point = dvec3_of(sphere ? object->sphere.center : object->plane.point);
+        double height = dvec3_dot(axis, dvec3_subtract(point, dvec3_of(light->quad.corner)));
+        if (scene->materials[object->material].type != MATERIAL_MATTE)
+            continue;
+        if (height + (sphere ? object->sphere.radius : 0) > 0)
             return true;
+        if (!sphere &&
+            dvec3_length(dvec3_cross(axis, dvec3_unit(dvec3_of(object->plane.normal)))) > resolution)
+            return true;
+    }
     return false;
 }
 
 static void warn_of_lights(const struct scene *scene)
 {
-    const struct scene_light *first = NULL;
-    size_t count = 0;
-    char others[64] = "";
     for (size_t i = 0; i < scene->light_count; ++i) {
         const struct scene_light *light = &scene->lights[i];
         if (light->type != LIGHT_QUAD || shines_on_any(scene, light, false) ||
             !shines_on_any(scene, light, true))
             continue;
-        first = first ? first : light;
-        count++;
-    }
-    if (!first)
+        log_warning(
+            "%s:%d:%d: quad light shines away from every matte surface; swap u and v to turn it round",
+            scene->path, light->place.line, light->place.column);
         return;
-    if (count > 1)
-        snprintf(others, sizeof others, " (as do %zu other%s)", count - 1, count > 2 ? "s" : "");
-    log_warning("%s:%d:%d: quad light shines away from every matte surface%s; swap u and v to turn it round",
-                scene->path, first->place.line, first->place.column, others);
+    }
 }
 
 void scene_warn(const struct scene *scene)
