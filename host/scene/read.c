@@ -130,9 +130,10 @@ static void add_name(struct mapping *mapping, const char *name, size_t index, vo
     if (found && *found == named)
         return;
     free(named);
+    char quote[REPORT_QUOTE_SIZE];
     if (found)
-        report_error(mapping->report, place, "%s name \"%s\" is used twice, first in line %d",
-                     mapping->schema->label, name, (*found)->line);
+        report_error(mapping->report, place, "%s name %s is used twice, first in line %d",
+                     mapping->schema->label, report_quote(name, strlen(name), quote), (*found)->line);
     else
         mapping->report->no_memory = true;
 }
@@ -191,11 +192,12 @@ static void read_object(struct reading *reading, struct fy_node *node, size_t in
 {
     struct scene_object *object = &reading->scene->objects[index];
     struct mapping mapping;
-    object->place = yaml_place(reading->report, node);
     schema_read(reading->report, &object_schema, node, object, &mapping);
     object->type = mapping.type < 0 ? OBJECT_SPHERE : (enum object_type)mapping.type;
     add_name(&mapping, object->name, index, &reading->object_names);
     find_material(reading, &mapping, object);
+    if (mapping.good)
+        object->place = yaml_place(reading->report, node);
     if (mapping.good && object->type == OBJECT_PLANE && dvec3_largest(dvec3_of(object->plane.normal)) == 0)
         schema_refuse(&mapping, schema_find(&mapping, "normal").written, "normal must not be zero");
 }
@@ -204,10 +206,11 @@ static void read_light(struct reading *reading, struct fy_node *node, size_t ind
 {
     struct scene_light *light = &reading->scene->lights[index];
     struct mapping mapping;
-    light->place = yaml_place(reading->report, node);
     light->color[0] = light->color[1] = light->color[2] = 1;
     schema_read(reading->report, &light_schema, node, light, &mapping);
     light->type = mapping.type < 0 ? LIGHT_POINT : (enum light_type)mapping.type;
+    if (mapping.good)
+        light->place = yaml_place(reading->report, node);
     if (!mapping.good || light->type != LIGHT_QUAD)
         return;
     struct dvec3 u = dvec3_of(light->quad.u), v = dvec3_of(light->quad.v);

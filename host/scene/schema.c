@@ -24,7 +24,10 @@ void schema_refuse(struct mapping *mapping, struct fy_node *node, const char *fo
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    report_error(mapping->report, yaml_place(mapping->report, node), "%s%s", mapping->label, message);
+    struct scene_place place = {1, 1};
+    if (mapping->report->count < REPORT_MAX_ERRORS) /* others are only counted */
+        place = yaml_place(mapping->report, node);
+    report_error(mapping->report, place, "%s%s", mapping->label, message);
     mapping->good = false;
 }
 

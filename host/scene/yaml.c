@@ -1,12 +1,14 @@
 #include "scene/yaml.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <stdint.h>
 #include <string.h>
 
-/* libfyaml reads ahead to where a bracket closes, and its time grows with the square of the number of
- * anchors: with more than this many of either it would take seconds and gigabytes to say no. */
-enum { MAX_OPEN = 10000 };
+enum {
+    MAX_OPEN_BRACKETS = 10000, /* libfyaml reads on until one closes: 16 MiB of them take gigabytes */
+    MAX_ANCHORS = 100,         /* its time grows with their number times that of nodes and aliases */
+};
 
 /* Not with fy_token_get_text(), which leaks memory in libfyaml 0.7.12 where a scalar has many escapes. */
 static void read_text(struct diagnostics *report, struct fy_token *token, struct yaml_value *value)
@@ -47,10 +49,11 @@ static struct scene_place mark_place(const struct fy_mark *mark)
     return mark ? (struct scene_place){mark->line + 1, mark->column + 1} : (struct scene_place){1, 1};
 }
 
-/* An empty value counts as standing where its key does: versions of libfyaml differ in where they see it. */
+/* An empty value counts as standing where its key does, another empty node where what it is in begins:
+ * versions of libfyaml differ in where they see it. */
 static struct fy_node *node_to_place(struct diagnostics *report, struct fy_node *node)
 {
-    struct fy_node *parent = fy_node_get_parent(node);
+    struct fy_node *parent = fy_node_get_document_parent(node);
     struct fy_node_pair *pair;
     struct yaml_value value = yaml_read(report, node);
     if (!parent || !value.plain || value.length > 0 || fy_node_is_alias(node))
@@ -104,21 +107,30 @@ static int bracket(char byte)
     return byte == '[' || byte == '{' ? 1 : byte == ']' || byte == '}' ? -1 : 0;
 }
 
-/* libfyaml 0.7.12 drops what follows a NUL or bad UTF-8. */
+/* Whether an anchor may begin at text[at]; in a text of several words that is "&" before one of them. */
+static bool may_be_anchor(const char *text, size_t length, size_t at)
+{
+    return text[at] == '&' && at + 1 < length && !isspace((unsigned char)text[at + 1]) &&
+           (at == 0 || !isalnum((unsigned char)text[at - 1]));
+}
+
+/* What libfyaml 0.7.12 does not say no to, or takes too long to: it drops what follows a NUL or bad UTF-8. */
 static void check_characters(struct diagnostics *report)
 {
-    const unsigned char *text = (const unsigned char *)report->text;
+    const char *text = report->text;
     struct scene_place place = {1, 1};
-    int open = 0, ampersands = 0;
+    int open = 0, anchors = 0;
     for (size_t at = 0, size; at < report->length && report->count == 0; at += size) {
-        size = printable_character(text + at, report->length - at);
+        size = printable_character((const unsigned char *)text + at, report->length - at);
+        open = open + bracket(text[at]) > 0 ? open + bracket(text[at]) : 0;
+        anchors += may_be_anchor(text, report->length, at);
         if (size == 0)
-            report_error(report, place, "must be printable UTF-8 text, has the byte 0x%02X", text[at]);
-        open = open + bracket(report->text[at]) > 0 ? open + bracket(report->text[at]) : 0;
-        ampersands += text[at] == '&';
-        if (open > MAX_OPEN || ampersands > MAX_OPEN)
-            report_error(report, place, "more than %d %s", MAX_OPEN,
-                         open > MAX_OPEN ? "open brackets" : "\"&\"");
+            report_error(report, place, "must be printable UTF-8 text, has the byte 0x%02X",
+                         (unsigned char)text[at]);
+        else if (open > MAX_OPEN_BRACKETS)
+            report_error(report, place, "more than %d open brackets", MAX_OPEN_BRACKETS);
+        else if (anchors > MAX_ANCHORS)
+            report_error(report, place, "more than %d anchors", MAX_ANCHORS);
         place.column++;
         if (text[at] == '\n' || (text[at] == '\r' && (at + 1 == report->length || text[at + 1] != '\n')))
             place = (struct scene_place){place.line + 1, 1};
@@ -147,7 +159,7 @@ static struct fy_document *parse(struct diagnostics *report, struct fy_parser *p
 /* Whether an alias stands for a node before it, all of which have been marked, that it is no part of. */
 static bool is_known(struct fy_node *alias, struct fy_node *target)
 {
-    for (struct fy_node *parent = alias; parent; parent = fy_node_get_parent(parent))
+    for (struct fy_node *parent = alias; parent; parent = fy_node_get_document_parent(parent))
         if (parent == target)
             return false;
     return target && fy_node_is_marker_set(target, 0);

@@ -23,7 +23,8 @@ struct fy_document *yaml_load(struct diagnostics *report);
 /* On lack of memory this and the next function set report->no_memory. */
 struct yaml_value yaml_read(struct diagnostics *report, struct fy_node *node);
 
-/* Where the node is written. An empty value stands where its key does. */
+/* Where the node is written. An empty value stands where its key does. Looking for an empty node takes long
+ * in a long list. */
 struct scene_place yaml_place(struct diagnostics *report, struct fy_node *node);
 
 #endif
