@@ -255,6 +255,14 @@ static void test_byte_order_mark_line_ends_and_aliases(void **state)
     assert_int_equal(scene.height, 4);
     scene_destroy(&scene);
 
+    read_good(HEAD
+              "materials: [{ name: &m A, type: mirror }, { name: &m B, type: &n matte, color: [0, 0, 0] }]\n"
+              "objects: [{ name: *n, type: sphere, center: [0, 0, 0], radius: 1, material: *m }]\n",
+              &scene);
+    assert_int_equal(scene.objects[0].material, 1);
+    assert_string_equal(scene.objects[0].name, "matte");
+    scene_destroy(&scene);
+
     assert_int_equal(read_text("\xEF\xBB\xBFwrong: 1\r\n", &scene), STATUS_REFUSED);
     assert_non_null(strstr(messages, "bad.yaml:1:1: error: unknown key"));
     assert_non_null(strstr(messages, "\nwrong: 1\n^\n"));
