@@ -49,14 +49,14 @@ static struct scene_place mark_place(const struct fy_mark *mark)
     return mark ? (struct scene_place){mark->line + 1, mark->column + 1} : (struct scene_place){1, 1};
 }
 
-/* An empty value counts as standing where its key does, another empty node where what it is in begins:
- * versions of libfyaml differ in where they see it. */
+/* The node whose start is the place of an empty one, because versions of libfyaml differ in where they see
+ * that: its key, or what it is in; NULL for an empty document. Of any other node the node itself. */
 static struct fy_node *node_to_place(struct diagnostics *report, struct fy_node *node)
 {
     struct fy_node *parent = fy_node_get_document_parent(node);
     struct fy_node_pair *pair;
-    struct yaml_value value = yaml_read(report, node);
-    if (!parent || !value.plain || value.length > 0 || fy_node_is_alias(node))
+    const struct yaml_value value = yaml_read(report, node);
+    if (!value.plain || value.length > 0 || fy_node_is_alias(node))
         return node;
     for (void *at = NULL; (pair = fy_node_mapping_iterate(parent, &at));)
         if (fy_node_pair_value(pair) == node)
@@ -68,8 +68,10 @@ static struct fy_node *node_to_place(struct diagnostics *report, struct fy_node 
  */
 struct scene_place yaml_place(struct diagnostics *report, struct fy_node *node)
 {
-    struct fy_document_iterator *iterator = fy_document_iterator_create();
     node = node_to_place(report, node);
+    if (!node)
+        return (struct scene_place){1, 1};
+    struct fy_document_iterator *iterator = fy_document_iterator_create();
     fy_document_iterator_node_start(iterator, node);
     struct fy_event *event = fy_document_iterator_body_next(iterator);
     struct scene_place place = mark_place(fy_event_start_mark(event));
