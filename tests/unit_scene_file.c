@@ -272,6 +272,27 @@ static void test_byte_order_mark_line_ends_and_aliases(void **state)
     assert_non_null(strstr(messages, "\nmax_bounces:\t-1\n            \t^\n"));
 }
 
+static void test_long_names(void **state)
+{
+    (void)state;
+    for (size_t length = 500; length < 520; ++length) {
+        char text[1024] = HEAD "materials: [{ type: mirror, name: ";
+        struct scene scene;
+        size_t start = strlen(text);
+        memset(text + start, 'n', length);
+        strcpy(text + start + length, " }]\n");
+        if (length < 512) {
+            read_good(text, &scene);
+            assert_int_equal(strlen(scene.materials[0].name), length);
+            scene_destroy(&scene);
+        } else {
+            assert_int_equal(read_text(text, &scene), STATUS_REFUSED);
+            assert_non_null(strstr(messages, "bad.yaml:3:35: error: mirror material \"nnn"));
+            assert_non_null(strstr(messages, "nnn...\": name must be shorter than 512 bytes, is \"nnn"));
+        }
+    }
+}
+
 /* Not every "&" is an anchor, nor every bracket one that opens a list. */
 static void test_signs_in_names(void **state)
 {
@@ -422,10 +443,15 @@ static void test_figures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_scenes),     cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_every_field),    cmocka_unit_test(test_byte_order_mark_line_ends_and_aliases),
-        cmocka_unit_test(test_signs_in_names), cmocka_unit_test(test_every_error_in_file_order),
-        cmocka_unit_test(test_hostile_texts),  cmocka_unit_test(test_files_that_cannot_be_scenes),
+        cmocka_unit_test(test_bad_scenes),
+        cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_every_field),
+        cmocka_unit_test(test_byte_order_mark_line_ends_and_aliases),
+        cmocka_unit_test(test_long_names),
+        cmocka_unit_test(test_signs_in_names),
+        cmocka_unit_test(test_every_error_in_file_order),
+        cmocka_unit_test(test_hostile_texts),
+        cmocka_unit_test(test_files_that_cannot_be_scenes),
         cmocka_unit_test(test_figures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
