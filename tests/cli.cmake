@@ -67,14 +67,9 @@ JSON_GET=$<TARGET_FILE:json_get>;SOURCE_DIR=${PROJECT_SOURCE_DIR};\
 BINARY_DIR=${PROJECT_BINARY_DIR};SANITIZE=${VKWHITTED_SANITIZE}")
     endforeach()
 endfunction()
-<<<<<<< HEAD
 add_cli_tests(usage no_command unknown_command unknown_option missing_argument value_like_an_option size numbers crop
               crop_outside option_of_another_command choices impossible_together several_scenes help_and_version
               manual_page completion)
-=======
-add_cli_tests(usage no_command unknown_command unknown_option missing_argument size numbers crop crop_outside
-              option_of_another_command choices impossible_together several_scenes help_and_version)
->>>>>>> scene
 add_cli_tests(input missing_scene folder_as_scene bad_scene bad_scene_among_good_ones scene_that_is_warned_of)
 add_cli_tests(output formats same_bits_on_both_backends exr_metadata transfer unknown_suffix unwritable_folder
               missing_folder disk_full existing_file_kept_on_failure crop_of_16384 stats)

@@ -27,10 +27,7 @@ add_unit_test(compiler)
 target_compile_definitions(unit_compiler PRIVATE SHADER_DEBUG_INFO=$<BOOL:${VKWHITTED_SHADER_DEBUG_INFO}>)
 add_unit_test(srgb)
 add_unit_test(warnings)
-<<<<<<< HEAD
 add_unit_test(text_file)
-=======
->>>>>>> scene
 
 # These open a device.
 foreach(module pixel properties total_reflection tracer truncation values)

@@ -213,8 +213,6 @@ static void test_byte_order_mark_line_ends_and_aliases(void **state)
     assert_non_null(strstr(messages, "\nmax_bounces:\t-1\n            \t^\n"));
 }
 
-<<<<<<< HEAD
-=======
 static void test_long_names(void **state)
 {
     (void)state;
@@ -236,7 +234,6 @@ static void test_long_names(void **state)
     }
 }
 
->>>>>>> scene
 /* Not every "&" is an anchor, nor every bracket one that opens a list. */
 static void test_signs_in_names(void **state)
 {
@@ -387,12 +384,6 @@ static void test_figures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-<<<<<<< HEAD
-        cmocka_unit_test(test_bad_scenes),     cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_every_field),    cmocka_unit_test(test_byte_order_mark_line_ends_and_aliases),
-        cmocka_unit_test(test_signs_in_names), cmocka_unit_test(test_every_error_in_file_order),
-        cmocka_unit_test(test_hostile_texts),  cmocka_unit_test(test_files_that_cannot_be_scenes),
-=======
         cmocka_unit_test(test_bad_scenes),
         cmocka_unit_test(test_defaults),
         cmocka_unit_test(test_every_field),
@@ -402,7 +393,6 @@ int main(void)
         cmocka_unit_test(test_every_error_in_file_order),
         cmocka_unit_test(test_hostile_texts),
         cmocka_unit_test(test_files_that_cannot_be_scenes),
->>>>>>> scene
         cmocka_unit_test(test_figures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

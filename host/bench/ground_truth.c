@@ -14,38 +14,8 @@ static const double most_rays_a_pixel = 2000, relative_floor = 1e-3;
 enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *most)
 {
     struct packed_scene pilot = *packed;
-<<<<<<< HEAD
     *most = (unsigned)packed->max_bounces;
     while (*most < ALL_BOUNCES) {
-=======
-    struct reference_rays rays;
-    size_t pixels;
-    pilot.samples = pilot.light_samples = 1;
-    enum status status = count_rays(&pilot, &rays, &pixels);
-    double lights = packed->quad_light_count > 0 ? packed->light_samples : 1;
-    *work = ((double)(rays.primary + rays.secondary) + (double)rays.shadow * lights) * packed->samples *
-            (packed->sphere_count + packed->plane_count + 1) / (double)pixels;
-    return status;
-}
-
-enum status bench_deepest(const struct scene *scene, const struct picture_settings *settings,
-                          unsigned *deepest, bool *has_secondary_rays)
-{
-    struct packed_scene packed;
-    struct picture_settings pilot = *settings;
-    pilot.samples = pilot.light_samples = 1;
-    *deepest = settings->max_bounces;
-    *has_secondary_rays = false;
-    for (size_t i = 0; i < scene->object_count; ++i)
-        if (scene->materials[scene->objects[i].material].type != MATERIAL_MATTE)
-            *has_secondary_rays = true;
-    enum status status = pack_scene(scene, &pilot, &packed);
-    if (status != STATUS_DONE)
-        return status;
-    while (*has_secondary_rays && *deepest < ALL_BOUNCES && status == STATUS_DONE) {
-        unsigned next =
-            *deepest + STRIDE_OF_BOUNCES < ALL_BOUNCES ? *deepest + STRIDE_OF_BOUNCES : ALL_BOUNCES;
->>>>>>> scene
         struct reference_rays rays;
         double pixels;
         unsigned next = *most + STRIDE_OF_BOUNCES;
@@ -106,7 +76,6 @@ static bool is_off_8bit(const struct srgb_encoder *encoder, const float *value, 
 static double measure_pixel(const struct image *image, size_t place, const double *exact, double *absolute,
                             double *relative)
 {
-<<<<<<< HEAD
     double squares = 0;
     *absolute = *relative = 0;
     for (size_t c = 0; c < 3; ++c) {
@@ -118,30 +87,11 @@ static double measure_pixel(const struct image *image, size_t place, const doubl
         squares += error * error;
     }
     return squares / 3;
-=======
-    bool sampled = false;
-    for (size_t i = 0; i < scene->light_count; ++i)
-        sampled = sampled || scene->lights[i].type == LIGHT_QUAD;
-    *truth = (struct ground_truth){.precision = sampled ? PRECISION_DOUBLE : PRECISION_QUAD};
-    settings.max_bounces = deepest;
-    if (sampled)
-        settings.light_samples = effort->samples;
-    enum status status = compute(scene, &settings, sampled ? effort->double_work : effort->quad_work,
-                                 progress, progress_total, truth);
-    int length = snprintf(truth->text, sizeof truth->text, "the reference in %s with %u bounces",
-                          sampled ? "double" : "quad (binary128)", deepest);
-    if (sampled)
-        snprintf(truth->text + length, sizeof truth->text - (size_t)length, " and %u light samples",
-                 settings.light_samples);
-    say_where(truth);
-    return status;
->>>>>>> scene
 }
 
 enum status bench_error_measure(const struct image *image, const struct ground_truth *truth,
                                 struct bench_error *error)
 {
-<<<<<<< HEAD
     size_t count = pixel_grid_count(&truth->pixels.grid);
     double *absolute = calloc(2 * count, sizeof *absolute);
     double sum = 0, sum_of_squares = 0; /* of the pixels' mean squares */
@@ -172,26 +122,4 @@ enum status bench_error_measure(const struct image *image, const struct ground_t
     error->relative_999 = sorted_quantile(relative, count, 0.999);
     free(absolute);
     return STATUS_DONE;
-=======
-    *truth = (struct ground_truth){.precision = PRECISION_DOUBLE};
-    settings.samples = effort->samples;
-    settings.light_samples = 1; /* of each pixel sample: together as many as those */
-    enum status status = compute(scene, &settings, effort->double_work, progress, progress_total, truth);
-    snprintf(truth->text, sizeof truth->text, "the reference in double with %u samples a pixel",
-             settings.samples);
-    say_where(truth);
-    return status;
-}
-
-void ground_truth_destroy(struct ground_truth *truth)
-{
-    free(truth->rgb);
-    *truth = (struct ground_truth){0};
-}
-
-double bench_explained_pixels(const struct packed_scene *packed, double work)
-{
-    double work_per_pixel;
-    return pixel_work(packed, &work_per_pixel) == STATUS_DONE ? work / work_per_pixel : 1;
->>>>>>> scene
 }

@@ -40,16 +40,12 @@ enum status bench_point_run(struct bench_point *point, struct image *image, doub
 enum status bench_point_start(struct vulkan_context *context, const struct scene *scene,
                               struct bench_point *point, struct image *image)
 {
-<<<<<<< HEAD
     struct bench_setting *setting = &point->setting;
     bool is_double = setting->precision == PRECISION_DOUBLE, on_device = setting->backend == BACKEND_VULKAN;
     image_destroy(image);
     enum status status = image_create(setting->picture.width, setting->picture.height, image);
     if (status == STATUS_DONE && on_device && is_double)
         status = image_widen(image);
-=======
-    struct picture_settings picture = point->setting.picture;
->>>>>>> scene
     double start = clock_ms();
     if (status == STATUS_DONE)
         status = pack_scene(scene, &setting->picture, &point->packed);

@@ -5,12 +5,8 @@
 
 #include "base/clock.h"
 #include "bench/document.h"
-<<<<<<< HEAD
 #include "bench/report.h"
 #include "check/compare.h"
-=======
-#include "bench/pictures.h"
->>>>>>> scene
 #include "scene/warnings.h"
 
 /* What a bench may cost. */
@@ -55,16 +51,10 @@ struct bench {
 /* The reference's float picture against the exact one, with the error analysis. */
 static enum status judge_rounding(struct bench *bench)
 {
-<<<<<<< HEAD
     const double work = bench->effort->truth.explained;
     struct grid_pixels of_float, exact = {0};
     struct image image = {0};
     enum status status = grid_render(&bench->packed, GRID_FLOAT, work, &bench->progress, 0, &of_float);
-=======
-    struct packed_scene packed;
-    struct picture_settings picture = bench->picture;
-    enum status status = pack_scene(&bench->scene, &picture, &packed);
->>>>>>> scene
     if (status != STATUS_DONE)
         return status;
     status = image_create(of_float.grid.columns, of_float.grid.rows, &image);
@@ -262,16 +252,6 @@ enum status bench_scene(const struct bench_options *options, struct vulkan_conte
     if (status != STATUS_DONE)
         return status;
     scene_warn(&bench.scene);
-<<<<<<< HEAD
-=======
-    bench.picture = (struct picture_settings){
-        .width = options->width ? options->width : bench.scene.width,
-        .height = options->height ? options->height : bench.scene.height,
-        .max_bounces = bench.scene.max_bounces,
-        .samples = 1,
-        .light_samples = bench.scene.light_samples,
-    };
->>>>>>> scene
     progress_start(&bench.progress, path,
                    TRUTH_SHARE + FILTERED_SHARE + ROUNDING_SHARE + START_SHARE + RUNS_SHARE, options->quiet);
     status = run(&bench);

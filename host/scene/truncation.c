@@ -34,11 +34,7 @@ struct body {
 /* Signed: positive outside the sphere and on the side of the plane's normal. */
 static double distance_from(const struct body *body, struct dvec3 point)
 {
-<<<<<<< HEAD
-    return body->is_sphere ? dvec3_length(dvec3_subtract(point, body->vector)) - body->number
-=======
     return body->is_sphere ? dvec3_distance(point, body->vector) - body->number
->>>>>>> scene
                            : dvec3_dot(body->vector, point) - body->number;
 }
 
