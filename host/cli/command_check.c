@@ -1,4 +1,4 @@
-#include "cli/command_check.h"
+#include "cli/options.h"
 
 #include <stdlib.h>
 

@@ -1,4 +1,4 @@
-#include "cli/command_pixel.h"
+#include "cli/options.h"
 
 #include "pixel/pixel.h"
 
