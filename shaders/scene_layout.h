@@ -39,16 +39,16 @@ typedef struct PackedSurface PackedSurface;
 /* A ray of smaller weight is not traced and a smaller pixel value is 0, for the same reason. */
 #define SMALLEST_WEIGHT 8.077935669463161e-28 /* 2^-90 */
 
-/* What a pixel's three values are: radiance; the numbers of primary, secondary and shadow rays; or the path
- * signature, a hash of every decision of the ray tree, as its lower and upper 16 bits and 0; or what rays that
- * were not traced are charged. */
+/* What a pixel's three values are: radiance; or, as unsigned integers, 0 and the numbers of secondary and shadow rays
+ * that the dispatch has traced, or 0, the path signature (a hash of every decision of the ray tree) and 0; or what
+ * rays that were not traced are charged. */
 #define OUTPUT_RADIANCE 0
 #define OUTPUT_RAYS 1
 #define OUTPUT_SIGNATURE 2
 #define OUTPUT_TRUNCATION 3 /* the charges of the pixel's samples, summed, 0 and 0 */
 
-/* A pixel's first value where it has none yet: a resumable pipeline has part of its ray tree left; or its loops were,
- * or may have been, ended by the driver. */
+/* A pixel's first value (an integer where they are integers) where it has none yet: a resumable pipeline has part of its
+ * ray tree left; or its loops were, or may have been, ended by the driver. */
 #define UNFINISHED (-1.0)
 #define TOO_LONG (-2.0)
 

@@ -7,6 +7,7 @@
 #include "bench/document.h"
 #include "bench/report.h"
 #include "check/compare.h"
+#include "scene/warnings.h"
 
 /* What a bench may cost. */
 struct effort {
@@ -186,7 +187,6 @@ static void choose(struct bench *bench)
         .max_bounces = scene->max_bounces,
         .samples = 1,
         .light_samples = scene->light_samples,
-        .warned = true,
     };
     choice->backend = bench->context ? BACKEND_VULKAN : BACKEND_CPU;
     choice->has_float64 = bench->context && bench->context->has_float64;
@@ -251,6 +251,7 @@ enum status bench_scene(const struct bench_options *options, struct vulkan_conte
     enum status status = scene_read(path, &bench.scene);
     if (status != STATUS_DONE)
         return status;
+    scene_warn(&bench.scene);
     progress_start(&bench.progress, path,
                    TRUTH_SHARE + FILTERED_SHARE + ROUNDING_SHARE + START_SHARE + RUNS_SHARE, options->quiet);
     status = run(&bench);

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "random.h"
+#include "vulkan/pass.h"
 #include "words.h"
 
 /* What a scene does not hold, so that a pipeline specialised to it can be tested on it. */
@@ -15,21 +16,17 @@ struct promises {
     bool in_order;      /* spheres stand before planes in the scene file */
 };
 
-struct constant {
-    uint32_t id, value;
-};
-
 enum { COMMON_CONSTANTS = 4, MOST_CONSTANTS = 8 };
 
 /* Of every test that does not set its own: a scene of one sphere and one plane. */
-extern const struct constant common_constants[COMMON_CONSTANTS];
+extern const struct pass_constant common_constants[COMMON_CONSTANTS];
 
 /* A function of the shaders, specialised somehow, and what it must be equal to. */
 struct function_test {
     const char *name;     /* function/variant, where there are several */
     const char *function; /* call_...() of functions.comp */
     struct promises promises;
-    struct constant constants[MOST_CONSTANTS]; /* those with id 0 are not there */
+    struct pass_constant constants[MOST_CONSTANTS]; /* those with id 0 are not there */
     void (*generate)(struct random *random, const struct promises *promises, struct word_writer *inputs);
     void (*call)(const union word *inputs, struct word_writer *outputs); /* of the C reference */
 };
