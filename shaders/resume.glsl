@@ -40,7 +40,6 @@ struct SavedPixel {
     SavedPath path;
     real3 radiance, leaves, rounding;
     real charge, charges;
-    uint secondary_rays, shadow_rays, signature;
     int pending;
 };
 
@@ -59,9 +58,6 @@ void save(uint place, Pixel pixel, Path path, int pending)
     saved_pixels[place].rounding = pixel.rounding;
     saved_pixels[place].charge = pixel.charge;
     saved_pixels[place].charges = pixel.charges;
-    saved_pixels[place].secondary_rays = pixel.tally.secondary_rays;
-    saved_pixels[place].shadow_rays = pixel.tally.shadow_rays;
-    saved_pixels[place].signature = pixel.tally.signature;
     saved_pixels[place].pending = pending;
     for (int i = 0; i < pending; ++i) {
         uint entry = place * uint(STACK_ROOM) + uint(i);
@@ -85,9 +81,6 @@ void load(uint place, inout Pixel pixel, inout Path path, inout int pending)
     pixel.rounding = saved_pixels[place].rounding;
     pixel.charge = saved_pixels[place].charge;
     pixel.charges = saved_pixels[place].charges;
-    pixel.tally.secondary_rays = saved_pixels[place].secondary_rays;
-    pixel.tally.shadow_rays = saved_pixels[place].shadow_rays;
-    pixel.tally.signature = saved_pixels[place].signature;
     pending = saved_pixels[place].pending;
     for (int i = 0; i < pending; ++i) {
         uint entry = place * uint(STACK_ROOM) + uint(i);

@@ -15,7 +15,7 @@ enum {
     ENTERED_SPHERES = 20,
 };
 
-const struct constant common_constants[COMMON_CONSTANTS] = {
+const struct pass_constant common_constants[COMMON_CONSTANTS] = {
     {SPHERES, 1},
     {PLANES, 1},
     {QUAD_LIGHTS, 1},

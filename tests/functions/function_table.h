@@ -5,6 +5,7 @@
 
 #include "random.h"
 #include "records.h"
+#include "vulkan/pass.h"
 
 /* A word of a record in the device's buffers. */
 union word {
@@ -14,14 +15,10 @@ union word {
 
 enum { MOST_WORDS = 80 }; /* of a record */
 
-struct constant {
-    uint32_t id, value;
-};
-
 enum { COMMON_CONSTANTS = 4, MOST_CONSTANTS = 8 };
 
 /* Of every test that does not set its own: a scene of one sphere and one plane. */
-extern const struct constant common_constants[COMMON_CONSTANTS];
+extern const struct pass_constant common_constants[COMMON_CONSTANTS];
 
 /* A function of the shaders, specialised somehow, and what it must be equal to. */
 struct function_test {
@@ -30,7 +27,7 @@ struct function_test {
     size_t input_words, output_words;
     const char *inputs, *outputs; /* their words, see function_table.c */
     struct promises promises;
-    struct constant constants[MOST_CONSTANTS]; /* those with id 0 are not there */
+    struct pass_constant constants[MOST_CONSTANTS]; /* those with id 0 are not there */
     void (*generate)(struct random *random, void *input);
     void (*call)(const void *input, void *output); /* of the C reference */
 };

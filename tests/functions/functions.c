@@ -125,7 +125,7 @@ static enum status run_test(const struct plan *plan, const struct function_test 
                             union word *expected)
 {
     struct result result = {0};
-    enum status status = device_load(device, test, test->input_words, test->output_words);
+    enum status status = device_load(device, test);
     for (unsigned long done = 0; status == STATUS_DONE && done < plan->cases; done += BATCH) {
         size_t count = plan->cases - done < BATCH ? plan->cases - done : BATCH;
         status = run_batch(plan, test, plan->first + done, count, device, expected, &result);
