@@ -1,5 +1,3 @@
-#include "image/file.h"
-
 #include <string.h>
 #include <strings.h>
 
@@ -35,7 +33,5 @@ enum status image_write(const struct image *image, const char *path, const struc
 
 enum status image_write_check(const char *path)
 {
-    if (image_format_of(path) == IMAGE_FORMAT_UNKNOWN)
-        return STATUS_REFUSED;
-    return output_file_check(path);
+    return image_format_of(path) == IMAGE_FORMAT_UNKNOWN ? STATUS_REFUSED : output_file_check(path);
 }

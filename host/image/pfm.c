@@ -5,11 +5,7 @@
 
 /* The sign of the scale says the byte order: negative is little-endian. Rows run from bottom to top.
  * Paul Debevec's PFM format: https://www.pauldebevec.com/Research/HDR/PFM/ */
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-static const char scale[] = "-1.0";
-#else
-static const char scale[] = "1.0";
-#endif
+static const char *const scale = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? "-1.0" : "1.0";
 
 enum status image_write_pfm(const struct image *image, const char *path,
                             const struct image_metadata *metadata)
@@ -20,11 +16,9 @@ enum status image_write_pfm(const struct image *image, const char *path,
     if (status != STATUS_DONE)
         return status;
 
-    char header[64];
-    int length = snprintf(header, sizeof header, "PF\n%u %u\n%s\n", image->width, image->height, scale);
-    bool written = output_file_write(&file, header, (size_t)length);
+    fprintf(file.stream, "PF\n%u %u\n%s\n", image->width, image->height, scale); /* is buffered */
     size_t row_channels = (size_t)image->width * 3;
-    for (unsigned y = image->height; y-- > 0 && written;)
-        written = output_file_write(&file, image->rgb + y * row_channels, row_channels * sizeof(float));
+    for (unsigned y = image->height; y-- > 0;)
+        output_file_write(&file, image->rgb + y * row_channels, row_channels * sizeof(float));
     return output_file_commit(&file);
 }

@@ -19,14 +19,13 @@ struct png_output {
     png_structp png;
     png_infop info;
     uint8_t *row;
-    int error; /* errno of a write that failed */
 };
 
 static void on_error(png_structp png, png_const_charp message)
 {
     const struct png_output *output = png_get_error_ptr(png);
-    if (output->error)
-        log_error("%s: cannot write: %s", output->name, strerror(output->error));
+    if (ferror(output->stream))
+        log_error("%s: cannot write: %s", output->name, strerror(errno ? errno : EIO));
     else
         log_error("%s: cannot write PNG: %s", output->name, message);
     png_longjmp(png, 1);
@@ -36,20 +35,6 @@ static void on_warning(png_structp png, png_const_charp message)
 {
     const struct png_output *output = png_get_error_ptr(png);
     log_warning("%s: PNG: %s", output->name, message);
-}
-
-static void on_write(png_structp png, png_bytep bytes, size_t size)
-{
-    struct png_output *output = png_get_io_ptr(png);
-    if (fwrite(bytes, 1, size, output->stream) != size) {
-        output->error = errno ? errno : EIO;
-        png_error(png, "write failed");
-    }
-}
-
-static void on_flush(png_structp png)
-{
-    (void)png;
 }
 
 static bool is_ascii(const char *text)
@@ -120,7 +105,7 @@ static bool start(struct png_output *output)
         log_error("%s: no memory to write PNG", output->name);
         return false;
     }
-    png_set_write_fn(output->png, output, on_write, on_flush);
+    png_init_io(output->png, output->stream);
     return true;
 }
 
