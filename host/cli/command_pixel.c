@@ -3,17 +3,6 @@
 #include "base/output_file.h"
 #include "pixel/trace.h"
 
-static enum status choose_pixel(const struct options *options, struct job *job)
-{
-    job->plan.window = (struct window){options->x, options->y, 1, 1};
-    job->plan.quiet = true;
-    if (options->x < (unsigned)job->packed.width && options->y < (unsigned)job->packed.height)
-        return STATUS_DONE;
-    log_error("pixel %u %u: expected a column from 0 to %d and a row from 0 to %d", options->x, options->y,
-              job->packed.width - 1, job->packed.height - 1);
-    return STATUS_REFUSED;
-}
-
 /* STATUS_DIFFERS where device and reference disagree, or where the picture's pipeline makes another pixel
  * than the recording one. */
 static enum status show(const struct options *options, struct vulkan_context *context, const struct job *job)
@@ -42,7 +31,13 @@ enum status command_pixel(const struct options *options)
         status = job_create(&options->job, options->scenes[0], &job);
     if (status != STATUS_DONE)
         return status;
-    status = choose_pixel(options, &job);
+    job.plan.window = (struct window){options->x, options->y, 1, 1};
+    job.plan.quiet = true;
+    if (options->x >= (unsigned)job.packed.width || options->y >= (unsigned)job.packed.height) {
+        log_error("pixel %u %u: expected a column from 0 to %d and a row from 0 to %d", options->x,
+                  options->y, job.packed.width - 1, job.packed.height - 1);
+        status = STATUS_REFUSED;
+    }
     if (status == STATUS_DONE)
         status = vulkan_context_create(&options->vulkan, &context);
     if (status == STATUS_DONE)

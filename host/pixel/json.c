@@ -2,13 +2,11 @@
 
 #include "pixel/trace.h"
 
-/* The object with a member more; NULL, and neither is left, without memory. */
+/* The object with a member more; NULL, and neither is left, without memory, where they may be NULL too. */
 static json_t *with(json_t *object, const char *key, json_t *value)
 {
-    if (object && json_object_set_new(object, key, value) == 0)
+    if (json_object_set_new(object, key, value) == 0)
         return object;
-    if (!object)
-        json_decref(value);
     json_decref(object);
     return NULL;
 }

@@ -189,21 +189,20 @@ static void print_fields(struct walk *walk)
 static const char *describe_ray(const struct ray_tree *tree, const struct reference_event *ray)
 {
     const layout_ivec4 place = ray->head.place;
-    const struct reference_event *event = ray;
     if (place.EVENT_BOUNCES == 0)
         return "primary ray";
-    while (event > tree->events && (event->head.place.EVENT_KIND != EVENT_RAY ||
-                                    event->head.place.EVENT_BOUNCES != place.EVENT_BOUNCES - 1))
+    const struct reference_event *event = ray; /* then the last that became of the parent: a hit or a split */
+    do
         --event;
+    while (event > tree->events &&
+           (event->head.place.EVENT_BOUNCES != place.EVENT_BOUNCES - 1 ||
+            (event->head.place.EVENT_KIND != EVENT_HIT && event->head.place.EVENT_KIND != EVENT_SPLIT)));
     const uint32_t parent = (uint32_t)event->head.place.EVENT_BRANCH, branch = (uint32_t)place.EVENT_BRANCH;
     if (branch == 2 * parent + 1)
         return "refracted ray";
     if (branch == 2 * parent + 2)
         return "reflected ray";
-    while (event < ray && event->head.place.EVENT_KIND != EVENT_HIT)
-        ++event;
-    return event < ray && event[1].head.place.EVENT_KIND == EVENT_SPLIT ? "totally reflected ray"
-                                                                        : "mirrored ray";
+    return event->head.place.EVENT_KIND == EVENT_SPLIT ? "totally reflected ray" : "mirrored ray";
 }
 
 static void print_ray_heading(struct walk *walk)

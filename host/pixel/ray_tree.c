@@ -1,18 +1,14 @@
 #include "pixel/ray_tree.h"
 
 #include <stdlib.h>
+#include <sys/param.h>
 
 /* Events that are kept, 170 MB: beyond that nobody reads. */
 enum { MOST_EVENTS = 1 << 20 };
 
-static size_t smaller(size_t a, size_t b)
-{
-    return a < b ? a : b;
-}
-
 static enum status allocate(struct ray_tree *tree, size_t took_place, size_t kept)
 {
-    tree->count = smaller(took_place, kept);
+    tree->count = MIN(took_place, kept);
     tree->beyond = took_place - tree->count;
     tree->events = calloc(tree->count + 1, sizeof *tree->events);
     if (tree->events)
@@ -43,7 +39,7 @@ enum status ray_tree_on_device(struct vulkan_context *context, const struct rend
     const bool double_precision = plan->precision == PRECISION_DOUBLE;
     const size_t event_size = sizeof(struct EventHead) + EVENT_VALUES * sizeof(double);
     const size_t fitting = context->properties.limits.maxStorageBufferRange / event_size - 1;
-    const size_t kept = smaller(smaller(expected, MOST_EVENTS), fitting);
+    const size_t kept = MIN(MIN(expected, MOST_EVENTS), fitting);
     const struct tracer_options options = {.double_precision = double_precision,
                                            .event_room = (uint32_t)kept};
     struct progress unseen = {.total = 1};

@@ -18,14 +18,10 @@ struct entry {
  */
 static int compare_steps(const struct reference_event *a, const struct reference_event *b)
 {
-    const layout_ivec4 p = a->head.place, q = b->head.place, f = a->head.facts, g = b->head.facts;
-    const int one[] = {p.EVENT_OF_SAMPLE, p.EVENT_BRANCH, p.EVENT_BOUNCES, p.EVENT_KIND, f.x, f.y};
-    const int other[] = {q.EVENT_OF_SAMPLE, q.EVENT_BRANCH, q.EVENT_BOUNCES, q.EVENT_KIND, g.x, g.y};
-    const bool several = p.EVENT_KIND == EVENT_LIGHT || p.EVENT_KIND == EVENT_UNTRACED;
-    for (int i = 0; i < (several ? 6 : 4); ++i)
-        if (one[i] != other[i])
-            return one[i] < other[i] ? -1 : 1;
-    return 0;
+    const int order = memcmp(&a->head.place, &b->head.place, sizeof a->head.place);
+    const int kind = a->head.place.EVENT_KIND;
+    const bool several = kind == EVENT_LIGHT || kind == EVENT_UNTRACED;
+    return order || !several ? order : memcmp(&a->head.facts, &b->head.facts, 2 * sizeof a->head.facts.x);
 }
 
 /* So too, then by place: branches wrap around after 32 bounces, and steps may share all of the above. */
