@@ -13,7 +13,7 @@
 #include <openexr.h>
 #include <png.h>
 
-#include "image/file.h"
+#include "image/image.h"
 #include "image/srgb.h"
 #include "test_folder.h"
 

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "base/output_file.h"
-#include "image/file.h"
+#include "image/image.h"
 #include "test_folder.h"
 
 static void put_file(const char *name, const char *text)

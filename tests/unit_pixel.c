@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "pixel/event.h"
+#include "pixel/ray_tree.h"
 #include "test_render.h"
 
 enum { WIDTH = 60, HEIGHT = 40, PIXELS = 3 };

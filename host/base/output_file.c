@@ -7,10 +7,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static enum status report(const char *path, const char *what, int error)
+static void report(const char *path, const char *what, int error)
 {
     log_error("%s: %s: %s", path, what, strerror(error));
-    return STATUS_UNABLE;
 }
 
 /* The path of the file to replace, symbolic links resolved, or NULL (reported). *mode gets the
@@ -18,40 +17,38 @@ static enum status report(const char *path, const char *what, int error)
 static char *find_target(const char *path, int *mode)
 {
     struct stat info;
+    const char *problem = NULL;
     *mode = -1;
-    const bool exists = lstat(path, &info) == 0;
-    char *target = exists || errno != ENOENT ? realpath(path, NULL) : strdup(path);
+    const bool exists = lstat(path, &info) == 0, fresh = !exists && errno == ENOENT && path[0] != '\0';
+    char *target = fresh ? strdup(path) : realpath(path, NULL);
     if (!target) {
         report(path, exists && S_ISLNK(info.st_mode) ? "cannot follow the symbolic link" : "cannot write",
                errno);
         return NULL;
     }
-    if (!exists)
+    if (fresh)
         return target;
-    const char *problem = NULL;
-    if (stat(target, &info) != 0)
+    if (stat(target, &info) != 0 ||
+        (S_ISREG(info.st_mode) && faccessat(AT_FDCWD, target, W_OK, AT_EACCESS) != 0))
         problem = strerror(errno);
     else if (!S_ISREG(info.st_mode))
         problem = S_ISDIR(info.st_mode) ? strerror(EISDIR) : "not a regular file";
-    else if (faccessat(AT_FDCWD, target, W_OK, AT_EACCESS) != 0)
-        problem = strerror(errno);
-    if (problem) {
-        log_error("%s: cannot write: %s", path, problem);
-        free(target);
-        return NULL;
-    }
     *mode = (int)(info.st_mode & 0777);
-    return target;
+    if (!problem)
+        return target;
+    log_error("%s: cannot write: %s", path, problem);
+    free(target);
+    return NULL;
 }
 
-/* Creates a file beside target under a name nobody has: O_EXCL and mode 0666 give it the permissions
- * (umask, default ACL) of any new file, which mkstemp() does not. -1 and errno on failure. */
-static int create_beside(const char *target, char **temporary)
+/* Creates a file beside target under a name nobody has: exclusive and with mode 0666 it has the permissions
+ * (umask, default ACL) of any new file, which mkstemp() does not give. NULL and errno on failure. */
+static FILE *create_beside(const char *target, char **temporary)
 {
     const char *slash = strrchr(target, '/'), *name = slash ? slash + 1 : target;
-    int fd = -1;
+    FILE *stream = NULL;
     errno = EEXIST;
-    for (int attempt = 0; fd < 0 && errno == EEXIST && attempt < 100; attempt++) {
+    for (int attempt = 0; !stream && errno == EEXIST && attempt < 100; attempt++) {
         free(*temporary);
         /* 200: names end at 255 bytes. */
         if (asprintf(temporary, "%.*s.%.200s.%ld.%d", (int)(name - target), target, name, (long)getpid(),
@@ -60,9 +57,9 @@ static int create_beside(const char *target, char **temporary)
             errno = ENOMEM;
             break;
         }
-        fd = open(*temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        stream = fopen(*temporary, "w+bxe"); /* x: O_EXCL, e: O_CLOEXEC */
     }
-    return fd;
+    return stream;
 }
 
 static void release(struct output_file *file)
@@ -74,31 +71,19 @@ static void release(struct output_file *file)
 
 enum status output_file_open(const char *path, struct output_file *file)
 {
-    *file = (struct output_file){.path = path};
-    if (path[0] == '\0')
-        return report(path, "cannot write", ENOENT);
-
     int mode;
+    *file = (struct output_file){.path = path};
     file->target = find_target(path, &mode);
     if (!file->target)
         return STATUS_UNABLE;
-
-    int fd = create_beside(file->target, &file->temporary);
-    if (fd < 0) {
-        enum status status = report(path, "cannot create a file there", errno);
-        release(file);
-        return status;
-    }
-    if (mode >= 0)
-        (void)fchmod(fd, (mode_t)mode); /* not everywhere possible (FAT), and no reason to lose the file */
-    file->stream = fdopen(fd, "w+b");
+    file->stream = create_beside(file->target, &file->temporary);
     if (!file->stream) {
-        enum status status = report(path, "cannot open", errno);
-        close(fd);
-        unlink(file->temporary);
+        report(path, "cannot create a file there", errno);
         release(file);
-        return status;
+        return STATUS_UNABLE;
     }
+    if (mode >= 0) /* not possible everywhere (FAT), and no reason to lose the file */
+        (void)fchmod(fileno(file->stream), (mode_t)mode);
     return STATUS_DONE;
 }
 
@@ -118,7 +103,6 @@ bool output_file_write_at(struct output_file *file, const void *bytes, size_t si
 
 enum status output_file_commit(struct output_file *file)
 {
-    const char *failed = "cannot write";
     int error = file->error;
     errno = EIO; /* where a write failed that nobody noticed */
     if (error == 0 && (ferror(file->stream) || fflush(file->stream) != 0 ||
@@ -126,17 +110,15 @@ enum status output_file_commit(struct output_file *file)
         error = errno;
     if (fclose(file->stream) != 0 && error == 0)
         error = errno;
-    if (error == 0 && rename(file->temporary, file->target) != 0) {
-        failed = "cannot put the finished file in place";
+    const bool written = error == 0;
+    if (written && rename(file->temporary, file->target) != 0)
         error = errno;
-    }
-    enum status status = STATUS_DONE;
     if (error != 0) {
         unlink(file->temporary);
-        status = report(file->path, failed, error);
+        report(file->path, written ? "cannot put the finished file in place" : "cannot write", error);
     }
     release(file);
-    return status;
+    return error == 0 ? STATUS_DONE : STATUS_UNABLE;
 }
 
 void output_file_abandon(struct output_file *file)

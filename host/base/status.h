@@ -14,14 +14,12 @@ enum status {
 
 /* Messages go to standard error as "vkwhitted: error: ...". The function that meets a failure
  * reports it, once, and returns a status; its callers only pass the status on. */
-__attribute__((format(printf, 1, 2))) void log_error(const char *format, ...);
-__attribute__((format(printf, 1, 2))) void log_warning(const char *format, ...);
-
-/* Shown with -v. */
-__attribute__((format(printf, 1, 2))) void log_info(const char *format, ...);
-
-/* Shown unless -q. */
-__attribute__((format(printf, 1, 2))) void log_notice(const char *format, ...);
+#define log_error(...) log_message(-1, "error: ", __VA_ARGS__)
+#define log_warning(...) log_message(0, "warning: ", __VA_ARGS__)
+#define log_notice(...) log_message(0, "", __VA_ARGS__)
+#define log_info(...) log_message(1, "", __VA_ARGS__)
+__attribute__((format(printf, 3, 4))) void log_message(int least_verbosity, const char *severity,
+                                                       const char *format, ...);
 
 /* -1: errors only (-q); 0: errors, warnings and notices; 1: all (-v). */
 void log_set_verbosity(int verbosity);

@@ -42,9 +42,7 @@ static char *read_open_file(int file, size_t most, size_t *length)
         }
     }
     if (got != 0) {
-        int error = errno;
-        free(text);
-        errno = error;
+        free(text); /* which leaves errno alone */
         return NULL;
     }
     text[size] = 0;

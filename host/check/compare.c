@@ -9,37 +9,32 @@ static bool same_bits(double a, double b)
     return memcmp(&a, &b, sizeof a) == 0;
 }
 
-/* |a - b|; see struct comparison for what is not finite. */
+/* |a - b| of two values that are not the same bits; see struct comparison for what is not finite. */
 static double channel_error(double a, double b)
 {
     if (isnan(a) && isnan(b))
         return 0.0;
-    if (!isfinite(a) || !isfinite(b))
-        return same_bits(a, b) ? 0.0 : INFINITY;
-    return fabs(a - b);
+    return isfinite(a) && isfinite(b) ? fabs(a - b) : INFINITY;
 }
 
-static bool agree(double a, double b, const struct tolerance *tolerance)
+/* Whether the tolerance covers an error between two values. */
+static bool covers(const struct tolerance *tolerance, double a, double b, double error)
 {
-    if (!tolerance || same_bits(a, b))
-        return same_bits(a, b);
-    if (isnan(a) && isnan(b))
-        return true;
-    double bound = tolerance->absolute + tolerance->relative * fmax(fabs(a), fabs(b));
-    return isfinite(a) && isfinite(b) && channel_error(a, b) <= bound;
+    return tolerance &&
+           (error == 0 ||
+            (isfinite(error) && error <= tolerance->absolute + tolerance->relative * fmax(fabs(a), fabs(b))));
 }
 
-/* The largest error so far of one kind, and of which channel value. */
+/* The largest error so far of one kind, below 0 where there is none, and of which channel value. */
 struct worst {
-    bool any;
     double error;
     size_t index;
 };
 
 static void note(struct worst *worst, double error, size_t index)
 {
-    if (!worst->any || error > worst->error)
-        *worst = (struct worst){true, error, index};
+    if (error > worst->error)
+        *worst = (struct worst){error, index};
 }
 
 bool image_same_size(const struct image *a, const struct image *b)
@@ -66,7 +61,7 @@ enum status image_compare(const struct image *a, const struct image *b, const st
         log_error("cannot compare a picture in double precision with one in float");
         return STATUS_REFUSED;
     }
-    struct worst disagreeing = {0}, unequal = {0};
+    struct worst disagreeing = {.error = -1}, unequal = {.error = -1};
     const size_t pixels = (size_t)a->width * a->height;
     for (size_t pixel = 0; pixel < pixels; ++pixel) {
         bool pixel_same = true, pixel_agrees = true;
@@ -77,7 +72,7 @@ enum status image_compare(const struct image *a, const struct image *b, const st
             pixel_same = false;
             double error = channel_error(value_a, value_b);
             note(&unequal, error, i);
-            if (agree(value_a, value_b, tolerance))
+            if (covers(tolerance, value_a, value_b, error))
                 continue;
             pixel_agrees = false;
             note(&disagreeing, error, i);
@@ -85,12 +80,12 @@ enum status image_compare(const struct image *a, const struct image *b, const st
         comparison->bit_differing += !pixel_same;
         comparison->differing += !pixel_agrees;
     }
-    const struct worst *worst = disagreeing.any ? &disagreeing : &unequal;
+    const struct worst *worst = comparison->differing > 0 ? &disagreeing : &unequal;
     comparison->width = a->width;
     comparison->height = a->height;
-    comparison->max_error = worst->error;
-    comparison->x = pixels ? (unsigned)(worst->index / 3 % a->width) : 0;
-    comparison->y = pixels ? (unsigned)(worst->index / 3 / a->width) : 0;
+    comparison->max_error = fmax(worst->error, 0);
+    comparison->x = (unsigned)(worst->index / 3 % a->width);
+    comparison->y = (unsigned)(worst->index / 3 / a->width);
     comparison->channel = (unsigned)(worst->index % 3);
     return comparison->differing > 0 ? STATUS_DIFFERS : STATUS_DONE;
 }

@@ -24,9 +24,10 @@ struct comparison {
 };
 
 /* Compares two pictures, in double where both have it; bit for bit if tolerance is NULL: then -0 and +0 do
- * not agree, and NaNs agree only if they are the same bits. STATUS_DONE if all pixels agree, otherwise
- * STATUS_DIFFERS, without a message; STATUS_REFUSED (reported, *comparison all 0) where the sizes differ, or
- * where one picture has double precision and the other has not: they are not two tries at the same picture.
+ * not agree, and NaNs agree only if they are the same bits. A picture has a pixel at least. STATUS_DONE if
+ * all pixels agree, otherwise STATUS_DIFFERS, without a message; STATUS_REFUSED (reported, *comparison all 0)
+ * where the sizes differ, or where one picture has double precision and the other has not: they are not two
+ * tries at the same picture.
  */
 enum status image_compare(const struct image *a, const struct image *b, const struct tolerance *tolerance,
                           struct comparison *comparison);

@@ -20,7 +20,10 @@ void viridis(double level, uint8_t *rgb)
 void heatmap_color(const float *a, const float *b, uint8_t *rgb)
 {
     double relative_error = 0.0;
-    bool same = true;
+    if (memcmp(a, b, 3 * sizeof *a) == 0) {
+        memset(rgb, 0, 3);
+        return;
+    }
     for (int c = 0; c < 3; c++) {
         if (memcmp(&a[c], &b[c], sizeof a[c]) == 0)
             continue;
@@ -28,15 +31,11 @@ void heatmap_color(const float *a, const float *b, uint8_t *rgb)
             memset(rgb, 255, 3);
             return;
         }
-        same = false;
         double magnitude = fmax(fabs((double)a[c]), fabs((double)b[c]));
         if (magnitude > 0.0)
             relative_error = fmax(relative_error, fabs((double)a[c] - (double)b[c]) / magnitude);
     }
-    if (same)
-        memset(rgb, 0, 3);
-    else
-        viridis(relative_error > 0.0 ? 1.0 + log2(relative_error) / 24.0 : 0.0, rgb);
+    viridis(relative_error > 0.0 ? 1.0 + log2(relative_error) / 24.0 : 0.0, rgb);
 }
 
 struct pair {

@@ -28,32 +28,6 @@ static struct errors find_errors(const float *rgb, const struct reference_explan
     return worst;
 }
 
-/* Adds pixel i, and its relative error to those of the same signature. */
-static void judge_pixel(const struct image *image, size_t i, uint32_t signature,
-                        const struct reference_explanation *exact, struct judgement *judgement,
-                        double *relative_errors, size_t *count)
-{
-    const unsigned x = (unsigned)(i % image->width), y = (unsigned)(i / image->width);
-    const bool same = signature == exact->signature, close = exact->margin < 1;
-    const struct errors errors = find_errors(image->rgb + 3 * i, exact);
-    judgement->other_signature += !same;
-    judgement->close_decisions += close;
-    if (!close && (!same || errors.share_of_bound > 1) && judgement->unexplained++ == 0) {
-        judgement->unexplained_x = x;
-        judgement->unexplained_y = y;
-    }
-    if (!same)
-        return;
-    if (!close)
-        judgement->worst_share = fmax(judgement->worst_share, errors.share_of_bound);
-    if (errors.relative > judgement->max) {
-        judgement->max = errors.relative;
-        judgement->max_x = x;
-        judgement->max_y = y;
-    }
-    relative_errors[(*count)++] = errors.relative;
-}
-
 static double quantile(const double *sorted, size_t count, double fraction)
 {
     return count == 0 ? 0 : sorted[(size_t)(fraction * (double)(count - 1))];
@@ -63,19 +37,38 @@ enum status judge_picture(const struct image *image, const uint32_t *signatures,
                           const struct reference_explanation *explanations, struct judgement *judgement)
 {
     size_t pixels = (size_t)image->width * image->height, count = 0;
-    double *errors = calloc(pixels, sizeof *errors);
+    double *relative_errors = calloc(pixels, sizeof *relative_errors);
     *judgement = (struct judgement){0};
-    if (!errors) {
+    if (!relative_errors) {
         log_error("no memory for the errors of %zu pixels", pixels);
         return STATUS_UNABLE;
     }
-    for (size_t i = 0; i < pixels; ++i)
-        judge_pixel(image, i, signatures[i], &explanations[i], judgement, errors, &count);
-    sort_doubles(errors, count);
-    judgement->median = quantile(errors, count, 0.5);
-    judgement->percentile_99 = quantile(errors, count, 0.99);
-    judgement->percentile_99_99 = quantile(errors, count, 0.9999);
-    free(errors);
+    for (size_t i = 0; i < pixels; ++i) {
+        const unsigned x = (unsigned)(i % image->width), y = (unsigned)(i / image->width);
+        const bool same = signatures[i] == explanations[i].signature, close = explanations[i].margin < 1;
+        const struct errors errors = find_errors(image->rgb + 3 * i, &explanations[i]);
+        judgement->other_signature += !same;
+        judgement->close_decisions += close;
+        if (!close && (!same || errors.share_of_bound > 1) && judgement->unexplained++ == 0) {
+            judgement->unexplained_x = x;
+            judgement->unexplained_y = y;
+        }
+        if (!same)
+            continue;
+        if (!close)
+            judgement->worst_share = fmax(judgement->worst_share, errors.share_of_bound);
+        if (errors.relative > judgement->max) {
+            judgement->max = errors.relative;
+            judgement->max_x = x;
+            judgement->max_y = y;
+        }
+        relative_errors[count++] = errors.relative;
+    }
+    sort_doubles(relative_errors, count);
+    judgement->median = quantile(relative_errors, count, 0.5);
+    judgement->percentile_99 = quantile(relative_errors, count, 0.99);
+    judgement->percentile_99_99 = quantile(relative_errors, count, 0.9999);
+    free(relative_errors);
     return judgement->unexplained ? STATUS_DIFFERS : STATUS_DONE;
 }
 

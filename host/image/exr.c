@@ -12,7 +12,6 @@ struct exr_output {
     const struct image *image;
     exr_context_t context;
     exr_encode_pipeline_t pipeline;
-    bool pipeline_started;
 };
 
 /* The first thing the library complained of. Its error callback gets no user data where it has no context
@@ -49,13 +48,13 @@ static bool set_text(exr_context_t context, const char *name, const char *text)
 
 static bool write_header(struct exr_output *output, const struct image_metadata *metadata)
 {
+    const char *const channels[] = {"B", "G", "R", truncation_channel};
     exr_context_t context = output->context;
     int part;
     if (!succeeded(exr_add_part(context, "picture", EXR_STORAGE_SCANLINE, &part)) ||
         !succeeded(exr_initialize_required_attr_simple(context, part, (int32_t)output->image->width,
                                                        (int32_t)output->image->height, EXR_COMPRESSION_ZIP)))
         return false;
-    const char *const channels[] = {"B", "G", "R", truncation_channel};
     for (int c = 0; c < (output->image->truncation ? 4 : 3); ++c)
         if (!succeeded(
                 exr_add_channel(context, part, channels[c], EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LINEAR, 1, 1)))
@@ -86,17 +85,13 @@ static bool write_chunk(struct exr_output *output, int y)
     if (!succeeded(exr_write_scanline_chunk_info(output->context, 0, y, &chunk)))
         return false;
 
-    bool first = !output->pipeline_started;
-    output->pipeline_started = true;
-    if (!succeeded(first ? exr_encoding_initialize(output->context, 0, &chunk, pipeline)
-                         : exr_encoding_update(output->context, 0, &chunk, pipeline)))
+    if (!succeeded(y == 0 ? exr_encoding_initialize(output->context, 0, &chunk, pipeline)
+                          : exr_encoding_update(output->context, 0, &chunk, pipeline)))
         return false;
-
     for (int c = 0; c < pipeline->channel_count; c++)
         point_to_channel(output->image, y, &pipeline->channels[c]);
-    if (first && !succeeded(exr_encoding_choose_default_routines(output->context, 0, pipeline)))
-        return false;
-    return succeeded(exr_encoding_run(output->context, 0, pipeline));
+    return (y > 0 || succeeded(exr_encoding_choose_default_routines(output->context, 0, pipeline))) &&
+           succeeded(exr_encoding_run(output->context, 0, pipeline));
 }
 
 static bool encode(struct exr_output *output, const struct image_metadata *metadata)
@@ -115,8 +110,7 @@ static bool encode(struct exr_output *output, const struct image_metadata *metad
                    succeeded(exr_get_scanlines_per_chunk(output->context, 0, &rows_per_chunk));
     for (int64_t y = 0; written && y < output->image->height; y += rows_per_chunk)
         written = write_chunk(output, (int)y);
-    if (output->pipeline_started)
-        exr_encoding_destroy(output->context, &output->pipeline);
+    exr_encoding_destroy(output->context, &output->pipeline);
     return succeeded(exr_finish(&output->context)) && written;
 }
 

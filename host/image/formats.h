@@ -6,12 +6,10 @@
 
 #include "image/image.h"
 
-/* The writers behind image_write(), one for each format; each reports its failures. */
+/* Writers behind image_write(); each reports its failures. */
 enum status image_write_png(const struct image *image, const char *path,
                             const struct image_metadata *metadata);
 enum status image_write_exr(const struct image *image, const char *path,
-                            const struct image_metadata *metadata);
-enum status image_write_pfm(const struct image *image, const char *path,
                             const struct image_metadata *metadata);
 
 struct png_text {

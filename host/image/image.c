@@ -14,10 +14,8 @@ enum status image_create(unsigned width, unsigned height, struct image *image)
             width, height, wanted_bytes, wanted_bytes * 0x1p-30, memory_bytes * 0x1p-30);
         return STATUS_UNABLE;
     }
-
     /* calloc, so that pages nobody draws on are never touched. */
-    size_t channel_count = (size_t)width * height * 3;
-    float *rgb = calloc(channel_count > 0 ? channel_count : 1, sizeof(float));
+    float *rgb = calloc((size_t)width * height * 3 + 1, sizeof *rgb);
     if (!rgb) {
         log_error("no memory for a picture of %ux%u pixels: %.0f bytes wanted", width, height, wanted_bytes);
         return STATUS_UNABLE;

@@ -10,8 +10,6 @@
 #include "image/formats.h"
 #include "image/srgb.h"
 
-enum { MAX_TEXTS = 8 };
-
 struct png_output {
     FILE *stream;
     const char *name; /* for messages */
@@ -19,14 +17,13 @@ struct png_output {
     png_structp png;
     png_infop info;
     uint8_t *row;
-    int error; /* errno of a write that failed */
 };
 
 static void on_error(png_structp png, png_const_charp message)
 {
     const struct png_output *output = png_get_error_ptr(png);
-    if (output->error)
-        log_error("%s: cannot write: %s", output->name, strerror(output->error));
+    if (ferror(output->stream))
+        log_error("%s: cannot write: %s", output->name, strerror(errno ? errno : EIO));
     else
         log_error("%s: cannot write PNG: %s", output->name, message);
     png_longjmp(png, 1);
@@ -36,20 +33,6 @@ static void on_warning(png_structp png, png_const_charp message)
 {
     const struct png_output *output = png_get_error_ptr(png);
     log_warning("%s: PNG: %s", output->name, message);
-}
-
-static void on_write(png_structp png, png_bytep bytes, size_t size)
-{
-    struct png_output *output = png_get_io_ptr(png);
-    if (fwrite(bytes, 1, size, output->stream) != size) {
-        output->error = errno ? errno : EIO;
-        png_error(png, "write failed");
-    }
-}
-
-static void on_flush(png_structp png)
-{
-    (void)png;
 }
 
 static bool is_ascii(const char *text)
@@ -63,19 +46,17 @@ static bool is_ascii(const char *text)
 /* tEXt is Latin-1: what is not ASCII goes into iTXt, which is UTF-8. */
 static void put_texts(struct png_output *output)
 {
-    png_text texts[MAX_TEXTS];
-    int count = 0;
-    for (int i = 0; i < output->source->text_count && count < MAX_TEXTS; i++) {
+    for (int i = 0; i < output->source->text_count; i++) {
         const struct png_text *given = &output->source->texts[i];
         if (!given->text)
             continue;
-        texts[count++] = (png_text){
+        const png_text text = {
             .compression = is_ascii(given->text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE,
             .key = (char *)(uintptr_t)given->key,
             .text = (char *)(uintptr_t)given->text,
         };
+        png_set_text(output->png, output->info, &text, 1);
     }
-    png_set_text(output->png, output->info, texts, count);
 }
 
 /* Z_RLE looks for runs only and leaves the rest to Huffman coding; after the Paeth filter that is as small as
@@ -102,6 +83,7 @@ static bool encode(struct png_output *output)
 {
     if (setjmp(png_jmpbuf(output->png)))
         return false;
+    png_init_io(output->png, output->stream);
     put_header(output);
     for (unsigned y = 0; y < output->source->height; y++) {
         output->source->encode_row(output->source->context, y, output->row);
@@ -111,23 +93,17 @@ static bool encode(struct png_output *output)
     return true;
 }
 
-static bool start(struct png_output *output)
-{
-    output->row = malloc((size_t)output->source->width * 3);
-    output->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, output, on_error, on_warning);
-    output->info = output->png ? png_create_info_struct(output->png) : NULL;
-    if (!output->row || !output->info) {
-        log_error("%s: no memory to write PNG", output->name);
-        return false;
-    }
-    png_set_write_fn(output->png, output, on_write, on_flush);
-    return true;
-}
-
 enum status png_encode(const struct png_source *source, FILE *stream, const char *name)
 {
     struct png_output output = {.stream = stream, .name = name, .source = source};
-    bool encoded = start(&output) && encode(&output);
+    bool encoded = false;
+    output.row = malloc((size_t)source->width * 3);
+    output.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &output, on_error, on_warning);
+    output.info = output.png ? png_create_info_struct(output.png) : NULL;
+    if (output.row && output.info)
+        encoded = encode(&output);
+    else
+        log_error("%s: no memory to write PNG", name);
     png_destroy_write_struct(&output.png, &output.info);
     free(output.row);
     return encoded ? STATUS_DONE : STATUS_UNABLE;

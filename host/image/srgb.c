@@ -20,15 +20,12 @@ static float float_of_bits(uint32_t bits)
     return value;
 }
 
-/* IEC 61966-2-1:1999, section 5.2. */
-static double opto_electronic_transfer(double linear)
-{
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
-}
-
+/* By the transfer function of IEC 61966-2-1:1999, section 5.2. */
 static unsigned nearest_code(float linear)
 {
-    return (unsigned)floor(255.0 * opto_electronic_transfer((double)linear) + 0.5);
+    const double x = (double)linear;
+    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
+    return (unsigned)floor(255.0 * encoded + 0.5);
 }
 
 void srgb_encoder_init(struct srgb_encoder *encoder)

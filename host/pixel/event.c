@@ -1,7 +1,7 @@
-#include "pixel/event.h"
-
 #include <math.h>
 #include <string.h>
+
+#include "pixel/ray_tree.h"
 
 static const char *const untraced[MOST_EVENT_NAMES] = {
     [UNTRACED_REFLECTED] = "reflected ray not traced",
@@ -92,16 +92,13 @@ bool event_values_agree(double a, double b)
     return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
 }
 
-bool event_field_agrees(const struct event_field *field, const struct reference_event *a,
-                        const struct reference_event *b, int *component)
+int event_field_difference(const struct event_field *field, const struct reference_event *a,
+                           const struct reference_event *b)
 {
     for (int c = 0; c < field->count; ++c)
-        if (!event_values_agree(event_value(a, field, c), event_value(b, field, c))) {
-            if (component)
-                *component = c;
-            return false;
-        }
-    return true;
+        if (!event_values_agree(event_value(a, field, c), event_value(b, field, c)))
+            return c;
+    return -1;
 }
 
 struct event_difference ray_trees_compare(const struct ray_tree *device, const struct ray_tree *reference)
@@ -111,10 +108,11 @@ struct event_difference ray_trees_compare(const struct ray_tree *device, const s
         const struct reference_event *a = &device->events[i], *b = &reference->events[i];
         if (memcmp(&a->head.place, &b->head.place, sizeof a->head.place) != 0)
             return (struct event_difference){.differs = true, .event = i};
-        int component;
-        for (const struct event_field *field = NULL; (field = event_next_field(a, field));)
-            if (!event_field_agrees(field, a, b, &component))
+        for (const struct event_field *field = NULL; (field = event_next_field(a, field));) {
+            const int component = event_field_difference(field, a, b);
+            if (component >= 0)
                 return (struct event_difference){true, i, field, component};
+        }
     }
     return (struct event_difference){
         .differs = device->count + device->beyond != reference->count + reference->beyond, .event = i};

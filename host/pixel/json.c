@@ -2,18 +2,16 @@
 
 #include "pixel/trace.h"
 
-/* The object with a member more; NULL, and neither is left, without memory. */
+/* The object with a member more; NULL, and neither is left, without memory, where they may be NULL too. */
 static json_t *with(json_t *object, const char *key, json_t *value)
 {
-    if (object && json_object_set_new(object, key, value) == 0)
+    if (json_object_set_new(object, key, value) == 0)
         return object;
-    if (!object)
-        json_decref(value);
     json_decref(object);
     return NULL;
 }
 
-/* A quantity of the event; the numbers of FIELD_VALUE come from values. */
+/* A quantity of the event; those of FIELD_VALUE come from values. */
 static json_t *field_json(const struct pixel_trace *trace, const struct event_field *field,
                           const struct reference_event *event, const double *values)
 {
@@ -35,11 +33,14 @@ static json_t *field_json(const struct pixel_trace *trace, const struct event_fi
                      json_real_or_null(values[2] / scale));
 }
 
-static json_t *event_json(const struct pixel_trace *trace, const struct reference_event *event)
+/* The event's fields; with values_only just those of FIELD_VALUE that are analysed. */
+static json_t *event_json(const struct pixel_trace *trace, const struct reference_event *event,
+                          const double *values, bool values_only)
 {
     json_t *object = json_object();
     for (const struct event_field *field = NULL; (field = event_next_field(event, field));)
-        object = with(object, field->name, field_json(trace, field, event, event->values));
+        if (!values_only || (field->type == FIELD_VALUE && !field->not_analysed))
+            object = with(object, field->name, field_json(trace, field, event, values));
     return object;
 }
 
@@ -47,17 +48,13 @@ static json_t *event_json(const struct pixel_trace *trace, const struct referenc
 static json_t *exact_json(const struct pixel_trace *trace, const struct step *step)
 {
     const struct reference_event *exact = step->exact;
-    json_t *errors = json_object(), *bounds = json_object();
-    double error[EVENT_VALUES];
+    double errors[EVENT_VALUES];
     for (int i = 0; i < EVENT_VALUES; ++i)
-        error[i] = step->device->values[i] - exact->values[i];
-    for (const struct event_field *field = NULL; (field = event_next_field(exact, field));)
-        if (field->type == FIELD_VALUE && !field->not_analysed) {
-            errors = with(errors, field->name, field_json(trace, field, exact, error));
-            bounds = with(bounds, field->name, field_json(trace, field, exact, exact->bounds));
-        }
-    return json_pack("{s:o, s:o, s:o, s:o}", "values", event_json(trace, exact), "errors", errors, "bounds",
-                     bounds, "margin", json_real_or_null(exact->margin));
+        errors[i] = step->device->values[i] - exact->values[i];
+    return json_pack("{s:o, s:o, s:o, s:o}", "values", event_json(trace, exact, exact->values, false),
+                     "errors", event_json(trace, exact, errors, true), "bounds",
+                     event_json(trace, exact, exact->bounds, true), "margin",
+                     json_real_or_null(exact->margin));
 }
 
 static json_t *step_json(const struct pixel_trace *trace, const struct step *step)
@@ -68,9 +65,10 @@ static json_t *step_json(const struct pixel_trace *trace, const struct step *ste
         json_pack("{s:s, s:i, s:I, s:i}", "step", event_name(event), "sample", place.EVENT_OF_SAMPLE,
                   "branch", (json_int_t)(uint32_t)place.EVENT_BRANCH, "bounces", place.EVENT_BOUNCES);
     if (step->device)
-        object = with(object, "device", event_json(trace, step->device));
+        object = with(object, "device", event_json(trace, step->device, step->device->values, false));
     if (step->reference)
-        object = with(object, "reference", event_json(trace, step->reference));
+        object =
+            with(object, "reference", event_json(trace, step->reference, step->reference->values, false));
     if (step->device && step->exact)
         object = with(object, precision_name(trace->against), exact_json(trace, step));
     return object;
@@ -80,15 +78,13 @@ static json_t *difference_json(const struct pixel_trace *trace)
 {
     const struct event_difference *difference = &trace->difference;
     const struct event_field *field = difference->field;
+    char device[BITS_TEXT], reference[BITS_TEXT];
     if (!difference->differs)
         return json_null();
-    json_t *object = json_pack("{s:I, s:s, s:i}", "step", (json_int_t)difference->event, "quantity",
-                               field ? field->name : "step", "component", difference->component);
-    if (!field || field->type != FIELD_VALUE)
-        return object;
-    char bits[BITS_TEXT];
-    object = with(object, "device_bits", json_string(difference_bits(trace, &trace->device, bits)));
-    return with(object, "reference_bits", json_string(difference_bits(trace, &trace->reference, bits)));
+    return json_pack("{s:I, s:s, s:i, s:s*, s:s*}", "step", (json_int_t)difference->event, "quantity",
+                     field ? field->name : "step", "component", difference->component, "device_bits",
+                     difference_bits(trace, &trace->device, device), "reference_bits",
+                     difference_bits(trace, &trace->reference, reference));
 }
 
 json_t *pixel_json(const struct pixel_trace *trace)
@@ -96,7 +92,8 @@ json_t *pixel_json(const struct pixel_trace *trace)
     const struct render_plan *plan = &trace->job->plan;
     json_t *steps = json_array();
     for (size_t i = 0; i < trace->step_count; ++i)
-        if (json_array_append_new(steps, step_json(trace, &trace->steps[i])) != 0) {
+        if ((trace->steps[i].device || trace->steps[i].reference) &&
+            json_array_append_new(steps, step_json(trace, &trace->steps[i])) != 0) {
             json_decref(steps);
             return NULL;
         }

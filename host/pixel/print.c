@@ -17,9 +17,36 @@ enum {
 /* A walk through the device's steps. */
 struct walk {
     const struct pixel_trace *trace;
+    size_t at;
+    struct step step; /* the one there; without the exact side where that went another way */
     int indent;
     int parted_at; /* the exact ray of so many bounces met another object than this one; INT_MAX: none did */
 };
+
+static void move_to(struct walk *walk, size_t i)
+{
+    walk->at = i;
+    walk->step = walk->trace->steps[i];
+    const layout_ivec4 place = walk->step.device->head.place;
+    if (place.EVENT_KIND == EVENT_RAY && place.EVENT_BOUNCES <= walk->parted_at)
+        walk->parted_at = INT_MAX;
+    if (place.EVENT_BOUNCES >= walk->parted_at && place.EVENT_KIND < EVENT_SAMPLE)
+        walk->step.exact = NULL;
+}
+
+/* Whether device and reference part first in this quantity of the device's step i; NULL: in the step itself.
+ */
+static bool is_first_difference(const struct pixel_trace *trace, size_t i, const struct event_field *field)
+{
+    const struct event_difference *difference = &trace->difference;
+    return difference->differs && difference->event == i && difference->field == field;
+}
+
+static bool differs(const struct event_field *field, const struct reference_event *a,
+                    const struct reference_event *b)
+{
+    return a && b && event_field_difference(field, a, b) >= 0;
+}
 
 static void print_value(const struct pixel_trace *trace, const struct event_field *field, double value)
 {
@@ -86,8 +113,8 @@ static void print_first_difference(const struct walk *walk)
         const struct reference_event *event = &sides[i]->events[difference->event];
         char bits[BITS_TEXT];
         fputs(i == 0 ? ", device " : ", reference ", stdout);
-        if (field && field->type == FIELD_VALUE)
-            printf("%s ", difference_bits(trace, sides[i], bits));
+        if (difference_bits(trace, sides[i], bits))
+            printf("%s ", bits);
         if (field)
             print_value(trace, field, event_value(event, field, difference->component));
         else
@@ -96,124 +123,115 @@ static void print_first_difference(const struct walk *walk)
     putchar('\n');
 }
 
-static bool is_first_difference(const struct walk *walk, const struct step *step,
-                                const struct event_field *field)
-{
-    const struct event_difference *difference = &walk->trace->difference;
-    return difference->field == field && step->device == &walk->trace->device.events[difference->event];
-}
-
 static void begin_line(const struct walk *walk, const char *name)
 {
     printf("%*s%-*s ", walk->indent, "", NAME_WIDTH, name);
 }
 
 /* A line with one quantity; those of the other sides only where they differ. */
-static void print_field(struct walk *walk, const struct step *step, const struct event_field *field)
+static void print_field(const struct walk *walk, const struct event_field *field)
 {
     const struct pixel_trace *trace = walk->trace;
+    const struct step *step = &walk->step;
     begin_line(walk, field->name);
     print_values(trace, field, step->device);
-    if (step->reference && !event_field_agrees(field, step->device, step->reference, NULL)) {
+    if (differs(field, step->device, step->reference)) {
         fputs("  reference ", stdout);
         print_values(trace, field, step->reference);
     }
     if (step->exact && field->type == FIELD_VALUE && !field->not_analysed) {
         print_error(field, step);
-    } else if (step->exact && field->type != FIELD_VALUE &&
-               !event_field_agrees(field, step->device, step->exact, NULL)) {
+    } else if (field->type != FIELD_VALUE && differs(field, step->device, step->exact)) {
         printf("  %s ", precision_name(trace->against));
         print_values(trace, field, step->exact);
     }
-    if (is_first_difference(walk, step, field))
+    if (is_first_difference(trace, walk->at, field))
         print_first_difference(walk);
     else
         putchar('\n');
 }
 
 /* The number of the quad light that an EVENT_LIGHT is about, from 1; below that, of none. */
-static int quad_light(const struct walk *walk, const struct reference_event *event)
+static int quad_light(const struct walk *walk)
 {
-    return event->head.facts.EVENT_OF_LIGHT - walk->trace->job->packed.point_light_count + 1;
+    return walk->step.device->head.facts.EVENT_OF_LIGHT - walk->trace->job->packed.point_light_count + 1;
 }
 
-static bool is_shown(const struct walk *walk, const struct step *step, const struct event_field *field)
+static bool is_shown(const struct walk *walk, const struct event_field *field)
 {
+    const struct step *step = &walk->step;
     const bool followed = event_is_followed(step->device);
     return field->shown == SHOWN || (field->shown == SHOWN_IF_FOLLOWED && followed) ||
-           (field->shown == SHOWN_OF_QUADS && followed && quad_light(walk, step->device) > 0) ||
-           (step->reference && !event_field_agrees(field, step->device, step->reference, NULL)) ||
-           is_first_difference(walk, step, field);
+           (field->shown == SHOWN_OF_QUADS && followed && quad_light(walk) > 0) ||
+           differs(field, step->device, step->reference) || is_first_difference(walk->trace, walk->at, field);
 }
 
 /* The step's quantities, and the margin of its decisions if there is an analysis. */
-static void print_fields(struct walk *walk, const struct step *step)
+static void print_fields(struct walk *walk)
 {
-    struct step shown = *step;
-    const layout_ivec4 place = step->device->head.place;
-    for (const struct event_field *field = NULL; (field = event_next_field(step->device, field));) {
-        if (is_shown(walk, &shown, field))
-            print_field(walk, &shown, field);
-        if (place.EVENT_KIND == EVENT_HIT && field->type == FIELD_OBJECT && shown.exact &&
-            !event_field_agrees(field, shown.device, shown.exact, NULL)) {
-            walk->parted_at = place.EVENT_BOUNCES;
-            shown.exact = NULL;
+    const struct reference_event *device = walk->step.device, *exact = walk->step.exact;
+    for (const struct event_field *field = NULL; (field = event_next_field(device, field));) {
+        if (is_shown(walk, field))
+            print_field(walk, field);
+        if (device->head.place.EVENT_KIND == EVENT_HIT && field->type == FIELD_OBJECT &&
+            differs(field, device, walk->step.exact)) {
+            walk->parted_at = device->head.place.EVENT_BOUNCES;
+            walk->step.exact = NULL;
         }
     }
-    if (!step->exact || !isfinite(step->exact->margin))
+    if (!exact || !isfinite(exact->margin))
         return;
     begin_line(walk, "margin");
-    printf("%.3g%s\n", step->exact->margin, step->exact->margin < 1 ? "  float may decide otherwise" : "");
+    printf("%.3g%s\n", exact->margin, exact->margin < 1 ? "  float may decide otherwise" : "");
 }
 
 /* How the ray came about: its parent is the last one before it with a bounce less. */
 static const char *describe_ray(const struct ray_tree *tree, const struct reference_event *ray)
 {
     const layout_ivec4 place = ray->head.place;
-    const struct reference_event *event = ray;
     if (place.EVENT_BOUNCES == 0)
         return "primary ray";
-    while (event > tree->events && (event->head.place.EVENT_KIND != EVENT_RAY ||
-                                    event->head.place.EVENT_BOUNCES != place.EVENT_BOUNCES - 1))
+    const struct reference_event *event = ray; /* then the last that became of the parent: a hit or a split */
+    do
         --event;
+    while (event > tree->events &&
+           (event->head.place.EVENT_BOUNCES != place.EVENT_BOUNCES - 1 ||
+            (event->head.place.EVENT_KIND != EVENT_HIT && event->head.place.EVENT_KIND != EVENT_SPLIT)));
     const uint32_t parent = (uint32_t)event->head.place.EVENT_BRANCH, branch = (uint32_t)place.EVENT_BRANCH;
     if (branch == 2 * parent + 1)
         return "refracted ray";
     if (branch == 2 * parent + 2)
         return "reflected ray";
-    while (event < ray && event->head.place.EVENT_KIND != EVENT_HIT)
-        ++event;
-    return event < ray && event[1].head.place.EVENT_KIND == EVENT_SPLIT ? "totally reflected ray"
-                                                                        : "mirrored ray";
+    return event->head.place.EVENT_KIND == EVENT_SPLIT ? "totally reflected ray" : "mirrored ray";
 }
 
-static void print_ray_heading(struct walk *walk, const struct step *step)
+static void print_ray_heading(struct walk *walk)
 {
     const struct pixel_trace *trace = walk->trace;
-    const layout_ivec4 place = step->device->head.place;
-    const int bounces = place.EVENT_BOUNCES;
+    const struct reference_event *ray = walk->step.device;
+    const int bounces = ray->head.place.EVENT_BOUNCES;
     walk->indent = 2 * (bounces < DEEPEST_INDENT ? bounces : DEEPEST_INDENT);
-    printf("%*s%s", walk->indent, "", describe_ray(&trace->device, step->device));
+    printf("%*s%s", walk->indent, "", describe_ray(&trace->device, ray));
     if (trace->job->packed.samples > 1)
-        printf(", sample %d", place.EVENT_OF_SAMPLE);
+        printf(", sample %d", ray->head.place.EVENT_OF_SAMPLE);
     if (bounces > 0)
-        printf(", bounce %d, from %s", bounces, surface_name(trace, step->device->head.facts.EVENT_SURFACE));
-    if (!step->reference)
+        printf(", bounce %d, from %s", bounces, surface_name(trace, ray->head.facts.EVENT_SURFACE));
+    if (!walk->step.reference)
         fputs("; the reference has no such ray", stdout);
-    if (trace->against != PRECISION_FLOAT && !step->exact)
+    if (trace->against != PRECISION_FLOAT && !walk->step.exact)
         printf("; not in the exact tree (%s)", precision_name(trace->against));
     putchar('\n');
     walk->indent += 2;
 }
 
-static void print_step(struct walk *walk, struct step step)
+static void print_step(struct walk *walk)
 {
-    const struct reference_event *event = step.device;
+    const struct reference_event *event = walk->step.device;
     const layout_ivec4 facts = event->head.facts;
-    const int kind = event->head.place.EVENT_KIND, quad = quad_light(walk, event);
-    switch (kind) {
+    const int quad = quad_light(walk);
+    switch (event->head.place.EVENT_KIND) {
     case EVENT_RAY:
-        print_ray_heading(walk, &step);
+        print_ray_heading(walk);
         break;
     case EVENT_UNTRACED:
         printf("%*s", walk->indent, "");
@@ -225,7 +243,10 @@ static void print_step(struct walk *walk, struct step step)
             printf("%*squad light %d, sample %d\n", walk->indent, "", quad, facts.EVENT_LIGHT_SAMPLE);
         else
             printf("%*spoint light %d\n", walk->indent, "", facts.EVENT_OF_LIGHT + 1);
-        break;
+        walk->indent += 2;
+        print_fields(walk);
+        walk->indent -= 2;
+        return;
     case EVENT_SAMPLE:
         printf("sample %d\n", event->head.place.EVENT_OF_SAMPLE);
         walk->indent = 2;
@@ -235,73 +256,49 @@ static void print_step(struct walk *walk, struct step step)
         walk->indent = 2;
         break;
     }
-    walk->indent += kind == EVENT_LIGHT ? 2 : 0;
-    print_fields(walk, &step);
-    walk->indent -= kind == EVENT_LIGHT ? 2 : 0;
+    print_fields(walk);
 }
 
-/* The step; without the exact side where that went another way. */
-static struct step step_at(struct walk *walk, size_t i)
-{
-    struct step step = walk->trace->steps[i];
-    const layout_ivec4 place = step.device->head.place;
-    if (place.EVENT_KIND == EVENT_RAY && place.EVENT_BOUNCES <= walk->parted_at)
-        walk->parted_at = INT_MAX;
-    if (place.EVENT_BOUNCES >= walk->parted_at && place.EVENT_KIND < EVENT_SAMPLE)
-        step.exact = NULL;
-    return step;
-}
-
-static bool differs(const struct step *step)
-{
-    const struct event_field *field = NULL;
-    while (step->reference && (field = event_next_field(step->device, field)))
-        if (!event_field_agrees(field, step->device, step->reference, NULL))
-            return true;
-    return false;
-}
-
-/* Whether the trees part in the step itself, not in a quantity of it. */
-static bool parts_at(const struct pixel_trace *trace, size_t i)
-{
-    return trace->difference.differs && !trace->difference.field && trace->difference.event == i;
-}
-
-/* The samples of one quad light at one point, summed up, but for the one with the first difference. Returns
- * the number of the last. */
-static size_t print_light_samples(struct walk *walk, size_t i)
+/* The samples of one quad light at one point, summed up, but for the one with the first difference. The walk
+ * ends at the last. */
+static void print_light_samples(struct walk *walk)
 {
     const struct ray_tree *tree = &walk->trace->device;
     const struct event_difference *difference = &walk->trace->difference;
-    const struct EventHead *head = &tree->events[i].head;
-    size_t end = i, lit = 0, shadowed = 0, differing = 0;
+    const size_t start = walk->at;
+    const struct EventHead *head = &tree->events[start].head;
+    const int quad = quad_light(walk);
+    size_t end = start, lit = 0, shadowed = 0, differing = 0;
     double sum = 0, margin = INFINITY;
     do {
         const struct reference_event *event = &tree->events[end];
-        const struct step step = step_at(walk, end);
         const double received = event->values[LIGHT_RECEIVED], area = event->values[LIGHT_AREA];
+        bool differing_field = false;
+        move_to(walk, end);
         shadowed += event->head.facts.EVENT_BLOCKER >= 0;
-        if (received > 0 && area > 0) {
-            ++lit;
-            sum += received * area;
-        }
-        differing += differs(&step);
-        if (step.exact)
-            margin = fmin(margin, step.exact->margin);
+        lit += received > 0 && area > 0;
+        sum += received > 0 && area > 0 ? received * area : 0;
+        for (const struct event_field *field = NULL; (field = event_next_field(event, field));)
+            differing_field |= differs(field, event, walk->step.reference);
+        differing += differing_field;
+        if (walk->step.exact)
+            margin = fmin(margin, walk->step.exact->margin);
         ++end;
-    } while (end < tree->count && !parts_at(walk->trace, end) &&
+    } while (end < tree->count && !is_first_difference(walk->trace, end, NULL) &&
              memcmp(&tree->events[end].head.place, &head->place, sizeof head->place) == 0 &&
              tree->events[end].head.facts.EVENT_OF_LIGHT == head->facts.EVENT_OF_LIGHT);
     printf("%*squad light %d: %zu of %zu samples lit, %zu in shadow; sum of received x area %.6g",
-           walk->indent, "", quad_light(walk, &tree->events[i]), lit, end - i, shadowed, sum);
+           walk->indent, "", quad, lit, end - start, shadowed, sum);
     if (differing > 0)
         printf("; %zu differ from the reference", differing);
     if (isfinite(margin))
         printf("; margin %.3g", margin);
     putchar('\n');
-    if (difference->field && difference->event >= i && difference->event < end)
-        print_step(walk, step_at(walk, difference->event));
-    return end - 1;
+    if (difference->field && difference->event >= start && difference->event < end) {
+        move_to(walk, difference->event);
+        print_step(walk);
+    }
+    walk->at = end - 1;
 }
 
 void pixel_print_verdict(const struct pixel_trace *trace)
@@ -329,21 +326,22 @@ void pixel_print(const struct pixel_trace *trace, bool all_light_samples)
     printf("%s: pixel (%u, %u) on %s, %s; metres\n", trace->job->scene.path, plan->window.x, plan->window.y,
            trace->context->properties.deviceName, precision_name(plan->precision));
     struct walk walk = {.trace = trace, .parted_at = INT_MAX};
-    for (size_t i = 0; i < trace->device.count; ++i) {
-        const struct reference_event *event = &trace->device.events[i];
-        if (parts_at(trace, i))
+    for (size_t i = 0; i < trace->device.count; i = walk.at + 1) {
+        move_to(&walk, i);
+        if (is_first_difference(trace, i, NULL))
             print_first_difference(&walk);
-        if (event->head.place.EVENT_KIND == EVENT_LIGHT && quad_light(&walk, event) > 0 &&
+        if (walk.step.device->head.place.EVENT_KIND == EVENT_LIGHT && quad_light(&walk) > 0 &&
             !all_light_samples && trace->job->packed.light_samples > 1)
-            i = print_light_samples(&walk, i);
+            print_light_samples(&walk);
         else
-            print_step(&walk, step_at(&walk, i));
+            print_step(&walk);
     }
-    if (parts_at(trace, trace->device.count)) /* the device has ended early */
+    if (is_first_difference(trace, trace->device.count, NULL)) /* the device has ended early */
         print_first_difference(&walk);
     size_t missing = 0;
-    for (size_t i = trace->device.count; i < trace->step_count; ++i)
-        missing += trace->steps[i].reference->head.place.EVENT_KIND == EVENT_RAY;
+    for (const struct step *step = trace->steps + trace->device.count;
+         step < trace->steps + trace->step_count; ++step)
+        missing += step->reference && step->reference->head.place.EVENT_KIND == EVENT_RAY;
     if (trace->difference.differs && missing > 0)
         printf("the reference traces %zu rays that the device does not\n", missing);
 }

@@ -1,18 +1,14 @@
 #include "pixel/ray_tree.h"
 
 #include <stdlib.h>
+#include <sys/param.h>
 
 /* Events that are kept, 170 MB: beyond that nobody reads. */
 enum { MOST_EVENTS = 1 << 20 };
 
-static size_t smaller(size_t a, size_t b)
-{
-    return a < b ? a : b;
-}
-
 static enum status allocate(struct ray_tree *tree, size_t took_place, size_t kept)
 {
-    tree->count = smaller(took_place, kept);
+    tree->count = MIN(took_place, kept);
     tree->beyond = took_place - tree->count;
     tree->events = calloc(tree->count + 1, sizeof *tree->events);
     if (tree->events)
@@ -22,67 +18,48 @@ static enum status allocate(struct ray_tree *tree, size_t took_place, size_t kep
     return STATUS_UNABLE;
 }
 
-/* Events as the device leaves them; see shaders/events.glsl. */
-struct float_event {
-    struct EventHead head;
-    float values[EVENT_VALUES];
-};
-struct double_event {
-    struct EventHead head;
-    double values[EVENT_VALUES];
-};
-
-static void widen(const void *source, bool double_precision, struct ray_tree *tree)
+/* Copies events as the device leaves them; see shaders/events.glsl. */
+static void copy_events(const void *source, bool double_precision, struct ray_tree *tree)
 {
-    const struct float_event *floats = source;
-    const struct double_event *doubles = source;
+    const size_t value_size = double_precision ? sizeof(double) : sizeof(float);
     for (size_t i = 0; i < tree->count; ++i) {
-        struct reference_event *event = &tree->events[i];
-        event->head = double_precision ? doubles[i].head : floats[i].head;
+        const struct EventHead *head =
+            (const void *)((const char *)source + i * (sizeof *head + EVENT_VALUES * value_size));
+        const void *values = head + 1;
+        tree->events[i].head = *head;
         for (int k = 0; k < EVENT_VALUES; ++k)
-            event->values[k] = double_precision ? doubles[i].values[k] : (double)floats[i].values[k];
+            tree->events[i].values[k] =
+                double_precision ? ((const double *)values)[k] : (double)((const float *)values)[k];
     }
-}
-
-/* Renders the pixel with a tracer that records. */
-static enum status record(struct tracer *tracer, const struct render_plan *plan)
-{
-    const struct window pixel = {plan->window.x, plan->window.y, 1, 1};
-    struct image image;
-    struct progress progress;
-    double unused_ms;
-    enum status status = image_create(1, 1, &image);
-    if (status != STATUS_DONE)
-        return status;
-    progress_start(&progress, "tracing", 1, plan->quiet);
-    status = tracer_render(tracer, pixel, &image, &progress, &unused_ms);
-    progress_end(&progress);
-    image_destroy(&image);
-    return status;
 }
 
 enum status ray_tree_on_device(struct vulkan_context *context, const struct render_plan *plan,
                                size_t expected, struct ray_tree *tree)
 {
     const bool double_precision = plan->precision == PRECISION_DOUBLE;
-    const size_t fitting = context->properties.limits.maxStorageBufferRange / sizeof(struct double_event) - 1;
-    const size_t kept = smaller(smaller(expected, MOST_EVENTS), fitting);
-    struct tracer *tracer;
+    const size_t event_size = sizeof(struct EventHead) + EVENT_VALUES * sizeof(double);
+    const size_t fitting = context->properties.limits.maxStorageBufferRange / event_size - 1;
+    const size_t kept = MIN(MIN(expected, MOST_EVENTS), fitting);
+    const struct tracer_options options = {.double_precision = double_precision,
+                                           .event_room = (uint32_t)kept};
+    struct progress unseen = {.total = 1};
+    struct tracer *tracer = NULL;
+    struct image image;
+    double unused_ms;
+    const void *events;
     *tree = (struct ray_tree){0};
-    enum status status = tracer_create(
-        context, plan->scene,
-        &(struct tracer_options){.double_precision = double_precision, .event_room = (uint32_t)kept},
-        &tracer);
-    if (status != STATUS_DONE)
-        return status;
-    status = record(tracer, plan);
-    if (status == STATUS_DONE) {
-        const void *source;
-        status = allocate(tree, tracer_events(tracer, &source), kept);
-        if (status == STATUS_DONE)
-            widen(source, double_precision, tree);
-    }
+    enum status status = image_create(1, 1, &image);
+    if (status == STATUS_DONE)
+        status = tracer_create(context, plan->scene, &options, &tracer);
+    if (status == STATUS_DONE)
+        status = tracer_render(tracer, (struct window){plan->window.x, plan->window.y, 1, 1}, &image, &unseen,
+                               &unused_ms);
+    if (status == STATUS_DONE)
+        status = allocate(tree, tracer_events(tracer, &events), kept);
+    if (status == STATUS_DONE)
+        copy_events(events, double_precision, tree);
     tracer_destroy(&tracer);
+    image_destroy(&image);
     return status;
 }
 

@@ -18,14 +18,10 @@ struct entry {
  */
 static int compare_steps(const struct reference_event *a, const struct reference_event *b)
 {
-    const layout_ivec4 p = a->head.place, q = b->head.place, f = a->head.facts, g = b->head.facts;
-    const int one[] = {p.EVENT_OF_SAMPLE, p.EVENT_BRANCH, p.EVENT_BOUNCES, p.EVENT_KIND, f.x, f.y};
-    const int other[] = {q.EVENT_OF_SAMPLE, q.EVENT_BRANCH, q.EVENT_BOUNCES, q.EVENT_KIND, g.x, g.y};
-    const bool several = p.EVENT_KIND == EVENT_LIGHT || p.EVENT_KIND == EVENT_UNTRACED;
-    for (int i = 0; i < (several ? 6 : 4); ++i)
-        if (one[i] != other[i])
-            return one[i] < other[i] ? -1 : 1;
-    return 0;
+    const int order = memcmp(&a->head.place, &b->head.place, sizeof a->head.place);
+    const int kind = a->head.place.EVENT_KIND;
+    const bool several = kind == EVENT_LIGHT || kind == EVENT_UNTRACED;
+    return order || !several ? order : memcmp(&a->head.facts, &b->head.facts, 2 * sizeof a->head.facts.x);
 }
 
 /* So too, then by place: branches wrap around after 32 bounces, and steps may share all of the above. */
@@ -36,19 +32,13 @@ static int compare_entries(const void *a, const void *b)
     return order ? order : (p->place > q->place) - (p->place < q->place);
 }
 
-static int compare_references(const void *a, const void *b)
-{
-    const struct step *p = a, *q = b;
-    return (p->reference > q->reference) - (p->reference < q->reference);
-}
-
 static enum status find_steps(struct pixel_trace *trace)
 {
     const struct ray_tree *trees[SIDES] = {&trace->device, &trace->reference, &trace->exact};
-    const size_t total = trace->device.count + trace->reference.count + trace->exact.count;
+    trace->step_count = trace->device.count + trace->reference.count;
+    const size_t total = trace->step_count + trace->exact.count;
     struct entry *entries = calloc(total + 1, sizeof *entries), *end = entries;
-    trace->steps = calloc(total + 1, sizeof *trace->steps);
-    trace->step_count = trace->device.count;
+    trace->steps = calloc(trace->step_count + 1, sizeof *trace->steps);
     if (!entries || !trace->steps) {
         log_error("no memory for %zu events", total);
         free(entries);
@@ -67,10 +57,8 @@ static enum status find_steps(struct pixel_trace *trace)
         if (step.device)
             trace->steps[step.device - trace->device.events] = step;
         else if (step.reference)
-            trace->steps[trace->step_count++] = step;
+            trace->steps[trace->device.count + (size_t)(step.reference - trace->reference.events)] = step;
     }
-    qsort(trace->steps + trace->device.count, trace->step_count - trace->device.count, sizeof *trace->steps,
-          compare_references);
     free(entries);
     return STATUS_DONE;
 }
@@ -152,13 +140,17 @@ const char *difference_bits(const struct pixel_trace *trace, const struct ray_tr
                             char text[static BITS_TEXT])
 {
     const struct event_difference *difference = &trace->difference;
-    double value = event_value(&side->events[difference->event], difference->field, difference->component);
-    float narrow = (float)value;
-    uint64_t bits = 0;
-    uint32_t narrow_bits;
+    if (!difference->field || difference->field->type != FIELD_VALUE)
+        return NULL;
+    const double value =
+        event_value(&side->events[difference->event], difference->field, difference->component);
+    uint64_t bits;
+    uint32_t float_bits;
     memcpy(&bits, &value, sizeof bits);
-    memcpy(&narrow_bits, &narrow, sizeof narrow_bits);
-    const bool wide = trace->job->plan.precision == PRECISION_DOUBLE;
-    snprintf(text, BITS_TEXT, "0x%0*" PRIx64, wide ? 16 : 8, wide ? bits : narrow_bits);
+    memcpy(&float_bits, &(float){(float)value}, sizeof float_bits);
+    if (trace->job->plan.precision == PRECISION_DOUBLE)
+        snprintf(text, BITS_TEXT, "0x%016" PRIx64, bits);
+    else
+        snprintf(text, BITS_TEXT, "0x%08" PRIx32, float_bits);
     return text;
 }

@@ -2,7 +2,7 @@
 #define VKWHITTED_PIXEL_TRACE_H
 
 #include "base/json.h"
-#include "pixel/event.h"
+#include "pixel/ray_tree.h"
 #include "tracer/job.h"
 
 /* A step of the ray tree, as each side tells it; NULL where that side has no such step. */
@@ -17,7 +17,8 @@ struct pixel_trace {
     enum precision against;                   /* PRECISION_FLOAT where there is no analysis */
     double scale;                             /* scene units in a metre */
     struct ray_tree device, reference, exact; /* exact: the analysis */
-    struct step *steps; /* the device's in their order, then those of the reference alone */
+    struct step
+        *steps; /* the device's in their order, then the reference's, empty where the device has them */
     size_t step_count;
     double picture[3], reference_picture[3]; /* the pixel as rendered without recording */
     bool is_the_pictures;                    /* what was recorded ends in the same bits as these */
@@ -36,8 +37,8 @@ const char *surface_name(const struct pixel_trace *trace, double surface);
 
 enum { BITS_TEXT = 20 };
 
-/* The bits of one side's value where the sides first differ, in the picture's precision and hexadecimal;
- * text. */
+/* The bits of one side's value where the sides first differ, in the picture's precision and hexadecimal:
+ * text, or NULL where they differ in something else. */
 const char *difference_bits(const struct pixel_trace *trace, const struct ray_tree *side,
                             char text[static BITS_TEXT]);
 

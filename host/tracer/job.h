@@ -1,7 +1,7 @@
 #ifndef VKWHITTED_TRACER_JOB_H
 #define VKWHITTED_TRACER_JOB_H
 
-#include "image/file.h"
+#include "image/image.h"
 #include "scene/pack.h"
 #include "tracer/render.h"
 
