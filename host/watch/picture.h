@@ -1,25 +1,28 @@
 #ifndef VKWHITTED_WATCH_PICTURE_H
 #define VKWHITTED_WATCH_PICTURE_H
 
-#include <stdatomic.h>
-
 #include "tracer/job.h"
 
-/* A scene and the picture of it, shared between threads that only read it. */
+/* A scene and the picture of it. */
 struct picture {
     struct job job;
     struct image image; /* empty before it has been rendered */
-    unsigned number;    /* the first is 1; 0 before it has been rendered */
+    unsigned number;    /* the first is 1; 0: not a good one, or a preview */
     double dispatch_ms;
-    atomic_ullong rays; /* as the reference has counted them; 0: not yet */
-    atomic_uint users;
+
+    /* How far it has been compared with the reference. */
+    size_t compared, differing; /* pixels */
+    uint64_t rays;              /* of the pixels compared */
+    size_t batch;               /* pixels to compare next; 0: no more */
+    double compared_since_ms;
 };
 
-/* With one user; NULL (reported) without memory. */
-struct picture *picture_create(void);
-struct picture *picture_share(struct picture *picture);
+void picture_destroy(struct picture *picture);
 
-/* Sets *picture to NULL; frees the picture with its last user. */
-void picture_release(struct picture **picture);
+/* Starts the comparison. */
+void picture_compare(struct picture *picture);
+
+/* Goes on with it for about 10 ms. Says how many pixels differ after the last one, if talkative. */
+void picture_compare_more(struct picture *picture, bool talkative);
 
 #endif
