@@ -200,7 +200,7 @@ enum status session_show(struct session *session, const struct image *image)
 {
     enum status status = STATUS_DONE;
     if (!session->display)
-        status = display_create(session->context, image->width, image->height, &session->display);
+        status = display_create(image->width, image->height, &session->display);
     uint8_t *rgba =
         status == STATUS_DONE ? display_picture(session->display, image->width, image->height) : NULL;
     if (!rgba)

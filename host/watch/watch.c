@@ -135,7 +135,7 @@ static enum status follow(struct session *session)
         if (inputs_take(&session->inputs, &saved_ms))
             session_take(session, saved_ms);
         if (options->window && !session->display && session->failure[0]) /* for the title */
-            status = display_create(session->context, 600, 400, &session->display);
+            status = display_create(600, 400, &session->display);
         bool compares = session->shown && session->shown->batch > 0 && !session->moving;
         double seconds = compares ? 0 : wait_seconds;
         if (status == STATUS_DONE && session->display)
@@ -150,10 +150,9 @@ static enum status follow(struct session *session)
 
 static enum status open_device(struct session *session)
 {
-    struct vulkan_options vulkan = session->options->vulkan;
-    enum status status = session->options->window ? display_connect(&vulkan) : STATUS_DONE;
+    enum status status = session->options->window ? display_connect() : STATUS_DONE;
     if (status == STATUS_DONE)
-        status = vulkan_context_create(&vulkan, &session->context);
+        status = vulkan_context_create(&session->options->vulkan, &session->context);
     if (status == STATUS_DONE && !session->options->job.fast)
         status = probe_require_exact(session->context);
     return status;
