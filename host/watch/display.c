@@ -153,15 +153,18 @@ void display_disconnect(void)
     glfwTerminate();
 }
 
-static enum status create_window(struct display *display, unsigned width, unsigned height)
+enum status display_create(unsigned width, unsigned height, struct display **pointer)
 {
     const unsigned most = 16384; /* X11's sizes have 16 bits with sign */
+    struct display *display = *pointer = calloc(1, sizeof *display);
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "vkwhitted");
     glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "vkwhitted");
-    display->window = glfwCreateWindow((int)(width < most ? width : most),
-                                       (int)(height < most ? height : most), "vkwhitted", NULL, NULL);
-    if (!display->window) {
-        log_error("cannot open a window: %s", glfw_reason());
+    if (display)
+        display->window = glfwCreateWindow((int)(width < most ? width : most),
+                                           (int)(height < most ? height : most), "vkwhitted", NULL, NULL);
+    if (!display || !display->window) {
+        log_error("cannot open a window: %s", display ? glfw_reason() : "no memory");
+        display_destroy(pointer);
         return STATUS_UNABLE;
     }
     glfwMakeContextCurrent(display->window);
@@ -173,17 +176,6 @@ static enum status create_window(struct display *display, unsigned width, unsign
     glfwSetScrollCallback(display->window, on_scroll);
     glfwSetKeyCallback(display->window, on_key);
     return STATUS_DONE;
-}
-
-enum status display_create(unsigned width, unsigned height, struct display **pointer)
-{
-    struct display *display = *pointer = calloc(1, sizeof *display);
-    if (!display)
-        log_error("no memory for the window");
-    else if (create_window(display, width, height) == STATUS_DONE)
-        return STATUS_DONE;
-    display_destroy(pointer);
-    return STATUS_UNABLE;
 }
 
 void display_destroy(struct display **pointer)

@@ -10,19 +10,17 @@ struct picture {
     unsigned number;    /* the first is 1; 0: not a good one, or a preview */
     double dispatch_ms;
 
-    /* How far it has been compared with the reference. */
-    size_t compared, differing; /* pixels */
-    uint64_t rays;              /* of the pixels compared */
-    size_t batch;               /* pixels to compare next; 0: no more */
-    double compared_since_ms;
+    unsigned band;     /* rows to be compared with the reference next; 0: no more */
+    unsigned compared; /* rows */
+    size_t differing;  /* pixels of these */
+    uint64_t rays;     /* of these */
+    double since_ms;   /* when the comparison began */
 };
 
 void picture_destroy(struct picture *picture);
 
-/* Starts the comparison. */
-void picture_compare(struct picture *picture);
-
-/* Goes on with it for about 10 ms. Says how many pixels differ after the last one, if talkative. */
-void picture_compare_more(struct picture *picture, bool talkative);
+/* Compares the next rows with the reference, for about 10 ms if one does not take longer; after the last one
+ * says how many pixels differ, if talkative. */
+void picture_compare(struct picture *picture, bool talkative);
 
 #endif

@@ -48,14 +48,6 @@ static struct job_options reduced_options(const struct job_options *options, con
     return reduced;
 }
 
-static void place_camera(struct session *session, struct scene *scene)
-{
-    if (!session->has_camera || memcmp(&session->file_camera, &scene->camera, sizeof scene->camera) != 0)
-        session->file_camera = session->camera = scene->camera;
-    session->has_camera = true;
-    scene->camera = session->camera;
-}
-
 /* Destroys a picture that nothing needs any more. */
 static void release(const struct session *session, struct picture *picture)
 {
@@ -82,7 +74,9 @@ static struct picture *prepare(struct session *session, unsigned reduction)
     if (session->scene_changed)
         scene_warn(&scene);
     session->scene_changed = false;
-    place_camera(session, &scene);
+    if (memcmp(&session->file_camera, &scene.camera, sizeof scene.camera) != 0)
+        session->file_camera = session->camera = scene.camera;
+    scene.camera = session->camera;
     const struct job_options options = reduced_options(&session->options->job, &scene, reduction);
     struct picture *picture = calloc(1, sizeof *picture);
     if (!picture) {
@@ -163,12 +157,17 @@ static enum status compile(struct session *session, const struct picture *pictur
     return session->compiled;
 }
 
+static enum status render_once_by(void *tracer, const struct render_plan *plan, struct image *image,
+                                  struct progress *progress, double *milliseconds)
+{
+    return tracer_render(tracer, plan->window, image, progress, milliseconds);
+}
+
 /* Gives the picture its image. *pipeline_ms is the time that a new pipeline took to build, and 0 where the
  * one there was fits. After a failure the next picture gets a new one, whatever state this one is in. */
 static enum status render(struct session *session, struct picture *picture, double *pipeline_ms)
 {
-    const struct render_plan *plan = &picture->job.plan;
-    struct progress progress;
+    struct rendering rendering = {0};
     double start = clock_ms();
     enum status status = STATUS_DONE;
     *pipeline_ms = 0;
@@ -181,14 +180,9 @@ static enum status render(struct session *session, struct picture *picture, doub
     if (status != STATUS_DONE)
         return status;
     replace(session, &session->traced, picture);
-    status = image_create(plan->window.width, plan->window.height, &picture->image);
-    if (status == STATUS_DONE && plan->precision == PRECISION_DOUBLE)
-        status = image_widen(&picture->image);
-    progress_start(&progress, "rendering", (uint64_t)plan->window.width * plan->window.height, plan->quiet);
-    if (status == STATUS_DONE)
-        status =
-            tracer_render(session->tracer, plan->window, &picture->image, &progress, &picture->dispatch_ms);
-    progress_end(&progress);
+    status = render_repeatedly(render_once_by, session->tracer, &picture->job.plan, &rendering);
+    picture->image = rendering.image;
+    picture->dispatch_ms = rendering.dispatch_ms;
     if (status != STATUS_DONE)
         tracer_destroy(&session->tracer);
     else if (session->options->window)
@@ -241,8 +235,8 @@ void session_render(struct session *session, double saved_ms)
         replace(session, &session->shown, picture);
         session->failure[0] = 0;
         tell_success(picture, pipeline_ms, saved_ms);
-        if (options->check || options->window)
-            picture_compare(picture);
+        picture->band = options->check || options->window ? 1 : 0;
+        picture->since_ms = clock_ms();
     } else if (status == STATUS_REFUSED || status == STATUS_UNABLE) {
         tell_failure(session, what, details, compile_ms);
     }
@@ -267,8 +261,7 @@ void session_take(struct session *session, double saved_ms)
 void session_preview(struct session *session, unsigned reduction)
 {
     double pipeline_ms, start = clock_ms();
-    bool good = session->shown && !session->failure[0];
-    struct picture *picture = good ? prepare(session, reduction) : NULL;
+    struct picture *picture = session->failure[0] ? NULL : prepare(session, reduction);
     if (picture && render(session, picture, &pipeline_ms) == STATUS_DONE)
         log_info("moving: every %u pixels in %.1f ms", reduction, clock_ms() - start);
     release(session, picture);

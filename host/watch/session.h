@@ -27,8 +27,7 @@ struct session {
 
     char *scene_text; /* as taken from the file; NULL: it cannot be read */
     size_t scene_length;
-    bool scene_changed; /* and has not been warned of */
-    bool has_camera;
+    bool scene_changed;                      /* and has not been warned of */
     struct scene_camera file_camera, camera; /* the camera counts until the file says another one */
     bool moving;                             /* the camera, so that the window shows a preview */
     double last_motion_ms;
@@ -57,7 +56,8 @@ void session_take(struct session *session, double saved_ms);
 /* The same with the files taken before, for another camera. */
 void session_render(struct session *session, double saved_ms);
 
-/* Shows the picture from the camera as it is now, every so many pixels; only while the files are good. */
+/* Shows the picture from the camera as it is now, every so many pixels; only while the files are good. There
+ * is a picture already. */
 void session_preview(struct session *session, unsigned reduction);
 
 /* Shows it in the window, which is opened if there is none yet. */

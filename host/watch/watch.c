@@ -21,7 +21,7 @@ static void set_title(const struct session *session)
 {
     const struct picture *shown = session->shown;
     char title[1024], state[512], rays[64] = "";
-    if (shown && shown->batch == 0 && shown->rays > 0)
+    if (shown && shown->band == 0 && shown->rays > 0)
         snprintf(rays, sizeof rays, ", %.1f million rays/s", (double)shown->rays / shown->dispatch_ms / 1e3);
     snprintf(state, sizeof state, "%s", session->context->properties.deviceName);
     if (session->shows_difference)
@@ -48,8 +48,8 @@ static void move_camera(struct session *session, const struct display_input *inp
     camera_zoom(&session->camera, input->zoom);
     session->moving = true;
     session->last_motion_ms = clock_ms();
-    double fine_ms = session->shown ? session->shown->dispatch_ms : 0;
-    session_preview(session, (unsigned)fmin(fmax(ceil(sqrt(fine_ms / frame_ms)), 1), 16));
+    double coarseness = ceil(sqrt(session->shown->dispatch_ms / frame_ms));
+    session_preview(session, (unsigned)fmin(fmax(coarseness, 1), 16));
 }
 
 /* Under the scene's name in the working folder, with a number that is free. */
@@ -89,40 +89,39 @@ static void toggle_difference(struct session *session)
     }
 }
 
-static void obey_keys(struct session *session, const struct display_input *input)
+static void obey(struct session *session, const struct display_input *input)
 {
-    if (input->reset && session->has_camera) {
+    if (moves(input)) {
+        move_camera(session, input);
+    } else if (session->moving && clock_ms() - session->last_motion_ms > rest_ms) {
+        session->moving = false;
+        if (!session->failure[0])
+            session_render(session, clock_ms());
+    }
+    if (input->reset) {
         session->camera = session->file_camera;
         session->moving = true; /* and at rest, by now */
     }
-    if (input->print_camera && session->has_camera) {
+    if (input->print_camera) {
         camera_print(stdout, &session->camera);
         fflush(stdout);
     }
-    if (input->save && session->shown)
+    if (input->save)
         save_picture(session);
-    if (input->difference && session->shown)
+    if (input->difference)
         toggle_difference(session);
 }
 
 /* Takes input to the window, for which it waits so long, and does what it asks for. */
 static enum status take_input(struct session *session, double seconds, bool *closed)
 {
-    struct display_input input;
+    struct display_input input = {0};
     set_title(session);
     enum status status = display_wait(session->display, seconds, &input);
-    if (status != STATUS_DONE)
-        return status;
     *closed = input.closed;
-    if (moves(&input) && session->has_camera) {
-        move_camera(session, &input);
-    } else if (session->moving && clock_ms() - session->last_motion_ms > rest_ms) {
-        session->moving = false;
-        if (!session->failure[0])
-            session_render(session, clock_ms());
-    }
-    obey_keys(session, &input);
-    return STATUS_DONE;
+    if (status == STATUS_DONE && session->shown)
+        obey(session, &input);
+    return status;
 }
 
 static enum status follow(struct session *session)
@@ -136,14 +135,14 @@ static enum status follow(struct session *session)
             session_take(session, saved_ms);
         if (options->window && !session->display && session->failure[0]) /* for the title */
             status = display_create(600, 400, &session->display);
-        bool compares = session->shown && session->shown->batch > 0 && !session->moving;
+        bool compares = session->shown && session->shown->band > 0 && !session->moving;
+        if (compares)
+            picture_compare(session->shown, options->check);
         double seconds = compares ? 0 : wait_seconds;
         if (status == STATUS_DONE && session->display)
             status = take_input(session, seconds, &closed);
         else
             nanosleep(&(struct timespec){.tv_nsec = (long)(seconds * 1e9)}, NULL);
-        if (session->shown && session->shown->batch > 0 && !session->moving)
-            picture_compare_more(session->shown, options->check);
     }
     return status;
 }
