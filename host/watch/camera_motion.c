@@ -1,5 +1,7 @@
 #include "watch/camera_motion.h"
 
+#include <string.h>
+
 #include "base/number.h"
 #include "scene/vector.h"
 
@@ -15,13 +17,6 @@ static const double pi = 3.14159265358979323846;
 /* The reader refuses a sine of 1e-6 or less between up and the view. */
 #define LEAST_POLE_DISTANCE (pi / 180)
 #define LEAST_SINE 2e-6
-
-static void store(struct dvec3 v, double out[3])
-{
-    out[0] = v.x;
-    out[1] = v.y;
-    out[2] = v.z;
-}
 
 static struct dvec3 view_offset(const struct scene_camera *camera)
 {
@@ -45,8 +40,8 @@ static bool is_valid(const struct scene_camera *camera)
 static void move_to(struct scene_camera *camera, struct dvec3 position, struct dvec3 look_at)
 {
     struct scene_camera moved = *camera;
-    store(position, moved.position);
-    store(look_at, moved.look_at);
+    memcpy(moved.position, &position, sizeof position); /* three doubles, too */
+    memcpy(moved.look_at, &look_at, sizeof look_at);
     if (is_valid(&moved))
         *camera = moved;
 }

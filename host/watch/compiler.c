@@ -149,18 +149,15 @@ enum status shader_compile(const char *path, const char *const *options, struct 
 {
     int files[FILES], outcome = -1;
     char names[FILES][32];
-    enum status status = STATUS_DONE;
+    bool created = true;
     *compilation = (struct compilation){0};
     for (int i = 0; i < FILES; ++i) {
-        files[i] = memfd_create("glslangValidator", 0);
+        created = (files[i] = memfd_create("glslangValidator", 0)) >= 0 && created;
         snprintf(names[i], sizeof names[i], "/dev/fd/%d", files[i]);
-        if (files[i] < 0 && status == STATUS_DONE) {
-            log_error("cannot compile the shader: %s", strerror(errno));
-            status = STATUS_UNABLE;
-        }
     }
-    if (status == STATUS_DONE)
-        status = run(path, options, names, &outcome);
+    if (!created)
+        log_error("cannot compile the shader: %s", strerror(errno));
+    enum status status = created ? run(path, options, names, &outcome) : STATUS_UNABLE;
     if (status == STATUS_DONE)
         status = take_result(path, names, outcome, compilation);
     for (int i = 0; i < FILES; ++i)

@@ -11,8 +11,7 @@
 #include "base/clock.h"
 #include "base/interrupt.h"
 
-/* Of one key press: picture heights, zoom steps. */
-static const double arrow_step = 1.0 / 32, zoom_key_step = 1;
+static const double arrow_step = 1.0 / 32; /* of one key press, in picture heights */
 
 struct display {
     GLFWwindow *window;
@@ -57,10 +56,9 @@ struct area fit_picture(struct extent picture, struct extent window)
 
 static void on_framebuffer_size(GLFWwindow *window, int width, int height)
 {
-    struct display *display = glfwGetWindowUserPointer(window);
     (void)width;
     (void)height;
-    display->stale = true;
+    ((struct display *)glfwGetWindowUserPointer(window))->stale = true;
 }
 
 static void on_refresh(GLFWwindow *window)
@@ -123,7 +121,7 @@ static void on_key(GLFWwindow *window, int key, int scancode, int action, int mo
     if (code == GLFW_KEY_UP || code == GLFW_KEY_DOWN)
         drag(display, pan, 0, code == GLFW_KEY_UP ? -arrow_step : arrow_step);
     if (code == '-' || code == '+' || code == '=') /* + with Shift on many keyboards */
-        input->zoom += code == '-' ? -zoom_key_step : zoom_key_step;
+        input->zoom += code == '-' ? -1 : 1;
     if (code == GLFW_KEY_ESCAPE)
         glfwSetWindowShouldClose(window, GLFW_TRUE);
     input->reset |= code == 'r';
@@ -157,8 +155,6 @@ enum status display_create(unsigned width, unsigned height, struct display **poi
 {
     const unsigned most = 16384; /* X11's sizes have 16 bits with sign */
     struct display *display = *pointer = calloc(1, sizeof *display);
-    glfwWindowHintString(GLFW_X11_CLASS_NAME, "vkwhitted");
-    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "vkwhitted");
     if (display)
         display->window = glfwCreateWindow((int)(width < most ? width : most),
                                            (int)(height < most ? height : most), "vkwhitted", NULL, NULL);
@@ -184,8 +180,7 @@ void display_destroy(struct display **pointer)
     *pointer = NULL;
     if (!display)
         return;
-    if (display->window)
-        glfwDestroyWindow(display->window);
+    glfwDestroyWindow(display->window);
     free(display->rgba);
     free(display);
 }

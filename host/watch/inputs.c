@@ -25,8 +25,6 @@ static const double closed_ms = 20, unknown_ms = 200, open_ms = 1000;
  * some in 2 s. */
 static const double fine_ms = 20, coarse_ms = 2000;
 
-static const double recent_ms = 2000; /* older changes have been settled already */
-
 enum { MOST_FOLDERS_DEEP = 3, MOST_SCENE_BYTES = 16 << 20 /* as scene_read() */ };
 
 /* A look at files. */
@@ -53,14 +51,10 @@ static uint64_t hash(uint64_t so_far, const void *bytes, size_t size)
 static double settling_time(const char *path)
 {
     int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    double time_ms = unknown_ms;
-    if (file < 0)
-        return time_ms;
-    if (fcntl(file, F_SETLEASE, F_RDLCK) == 0)
-        time_ms = closed_ms;
-    else if (errno == EAGAIN)
-        time_ms = open_ms;
-    close(file); /* and the lease ends */
+    bool closed = file >= 0 && fcntl(file, F_SETLEASE, F_RDLCK) == 0;
+    double time_ms = closed ? closed_ms : file >= 0 && errno == EAGAIN ? open_ms : unknown_ms;
+    if (file >= 0)
+        close(file); /* and the lease ends */
     return time_ms;
 }
 
@@ -73,13 +67,11 @@ static uint64_t look_at(struct look *look, const char *path)
         look->settling_ms = fmax(look->settling_ms, unknown_ms);
         return number;
     }
-    const int64_t facts[] = {(int64_t)about.st_dev,          (int64_t)about.st_ino,
-                             (int64_t)about.st_size,         (int64_t)about.st_mtim.tv_sec,
-                             (int64_t)about.st_mtim.tv_nsec, (int64_t)about.st_ctim.tv_sec,
-                             (int64_t)about.st_ctim.tv_nsec};
+    const int64_t facts[] = {(int64_t)about.st_dev, (int64_t)about.st_ino, (int64_t)about.st_size,
+                             (int64_t)about.st_ctim.tv_sec, (int64_t)about.st_ctim.tv_nsec};
     if (milliseconds_between(look->newest, about.st_ctim) > 0)
         look->newest = about.st_ctim;
-    if (milliseconds_between(about.st_ctim, look->now) < recent_ms)
+    if (milliseconds_between(about.st_ctim, look->now) < coarse_ms) /* settled already, if older */
         look->settling_ms = fmax(look->settling_ms, settling_time(path));
     return hash(number, facts, sizeof facts);
 }
@@ -126,7 +118,7 @@ bool inputs_take(struct inputs *inputs, double *saved_ms)
     double now_ms = clock_ms(), age_ms = milliseconds_between(found.newest, found.now);
     if (!same_state(found.state, inputs->seen)) {
         /* since the last look, though no file is newer where one has gone or a link leads elsewhere */
-        inputs->saved_ms = fmax(now_ms - fmax(age_ms, 0), inputs->last_look_ms);
+        inputs->saved_ms = fmin(fmax(now_ms - age_ms, inputs->last_look_ms), now_ms);
         inputs->seen = found.state;
         inputs->unchanged_since_ms = now_ms;
     }
@@ -179,13 +171,13 @@ static void find_shaders(char folder[PATH_MAX])
     const char *slash = strrchr(program, '/');
     snprintf(beside, sizeof beside, "%.*s/" SHADERS_FROM_BIN, slash ? (int)(slash - program) : 0, program);
     if (!slash || !realpath(beside, folder))
-        snprintf(folder, PATH_MAX, "%s", SHADERS_OF_SOURCE);
+        strcpy(folder, SHADERS_OF_SOURCE);
 }
 
 enum status inputs_create(const char *scene_path, const char *shader_folder, struct inputs *inputs)
 {
     char found[PATH_MAX];
-    *inputs = (struct inputs){.scene_path = scene_path, .shader_broken = true, .last_look_ms = clock_ms()};
+    *inputs = (struct inputs){.scene_path = scene_path, .shader_broken = true, .last_look_ms = INFINITY};
     if (!shader_folder)
         find_shaders(found);
     int length = snprintf(inputs->shader_path, sizeof inputs->shader_path, "%s/whitted.comp",

@@ -37,8 +37,6 @@ static struct job_options reduced_options(const struct job_options *options, con
                                           unsigned reduction)
 {
     struct job_options reduced = *options;
-    if (reduction == 1)
-        return reduced;
     reduced.width = ((options->width ? options->width : scene->width) + reduction - 1) / reduction;
     reduced.height = ((options->height ? options->height : scene->height) + reduction - 1) / reduction;
     reduced.crop.x /= reduction;
