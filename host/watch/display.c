@@ -202,14 +202,17 @@ unsigned char *display_picture(struct display *display, unsigned width, unsigned
 
 enum status display_paint(struct display *display)
 {
-    static const float corners[] = {0, 0, -1, 1, 0, 1, 0, 1, 1, 0, 1, 1, 1, -1, 0, 0, 1, -1, -1, 0};
+    static const float corners[] = {
+        /* s t, x y z */ 0, 0, -1, 1, 0, 1, 0, 1, 1, 0, 1, 1, 1, -1, 0, 0, 1, -1, -1, 0};
     const struct extent picture = display->picture;
     int width, height;
+    if (picture.width == 0)
+        return STATUS_DONE;
     glfwGetFramebufferSize(display->window, &width, &height);
     const struct area fit = fit_picture(picture, (struct extent){(unsigned)width, (unsigned)height});
     int filter = fit.width >= picture.width && fit.height >= picture.height ? GL_NEAREST : GL_LINEAR;
     display->stale = fit.width == 0;
-    if (picture.width == 0 || display->stale)
+    if (display->stale)
         return STATUS_DONE;
     glClear(GL_COLOR_BUFFER_BIT);
     glViewport((int)fit.x, height - (int)(fit.y + fit.height), (int)fit.width, (int)fit.height);

@@ -20,17 +20,18 @@ static const double frame_ms = 25;       /* what a picture may take while the ca
 static void set_title(const struct session *session)
 {
     const struct picture *shown = session->shown;
-    char title[1024], state[512], rays[64] = "";
+    const char *device = session->context->properties.deviceName, *failure = session->failure;
+    char title[1024], speed[64] = "", state[512];
     if (shown && shown->band == 0 && shown->rays > 0)
-        snprintf(rays, sizeof rays, ", %.1f million rays/s", (double)shown->rays / shown->dispatch_ms / 1e3);
-    snprintf(state, sizeof state, "%s", session->context->properties.deviceName);
+        snprintf(speed, sizeof speed, " - %.1f ms, %.1f million rays/s", shown->dispatch_ms,
+                 (double)shown->rays / shown->dispatch_ms / 1e3);
+    else if (shown)
+        snprintf(speed, sizeof speed, " - %.1f ms", shown->dispatch_ms);
+    snprintf(state, sizeof state, "%s%s", device, speed);
     if (session->shows_difference)
         snprintf(state, sizeof state, "%zu pixels differ from the reference", session->differing);
-    else if (shown)
-        snprintf(state, sizeof state, "%s - %.1f ms%s", session->context->properties.deviceName,
-                 shown->dispatch_ms, rays);
-    snprintf(title, sizeof title, "%s - %s%s%s", session->options->scene, state,
-             session->failure[0] ? " - " : "", session->failure);
+    snprintf(title, sizeof title, "%s - %s%s%s", session->options->scene, state, failure[0] ? " - " : "",
+             failure);
     display_set_title(session->display, title);
 }
 
@@ -147,23 +148,17 @@ static enum status follow(struct session *session)
     return status;
 }
 
-static enum status open_device(struct session *session)
-{
-    enum status status = session->options->window ? display_connect() : STATUS_DONE;
-    if (status == STATUS_DONE)
-        status = vulkan_context_create(&session->options->vulkan, &session->context);
-    if (status == STATUS_DONE && !session->options->job.fast)
-        status = probe_require_exact(session->context);
-    return status;
-}
-
 enum status watch(const struct watch_options *options)
 {
     struct session session = {.options = options};
     srgb_encoder_init(&session.encoder);
     enum status status = inputs_create(options->scene, options->shader_folder, &session.inputs);
+    if (status == STATUS_DONE && options->window)
+        status = display_connect();
     if (status == STATUS_DONE)
-        status = open_device(&session);
+        status = vulkan_context_create(&options->vulkan, &session.context);
+    if (status == STATUS_DONE && !options->job.fast)
+        status = probe_require_exact(session.context);
     if (status == STATUS_DONE)
         status = follow(&session);
     enum status closed = session_destroy(&session);
