@@ -75,15 +75,6 @@ static void report_no_device(void)
 static enum status create_instance(struct vulkan_context *context, const struct vulkan_options *options)
 {
     const bool validate = options->validate;
-    const char *extensions[8] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME}; /* which the loader always has */
-    uint32_t extension_count = 1;
-    if (options->instance_extension_count >= sizeof extensions / sizeof *extensions) {
-        log_error("the window system needs %u Vulkan extensions, room for %zu",
-                  options->instance_extension_count, sizeof extensions / sizeof *extensions - 1);
-        return STATUS_UNABLE;
-    }
-    for (uint32_t i = 0; i < options->instance_extension_count; ++i)
-        extensions[extension_count++] = options->instance_extensions[i];
     const VkDebugUtilsMessengerCreateInfoEXT messenger_info = {
         .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
         .messageSeverity =
@@ -111,8 +102,8 @@ static enum status create_instance(struct vulkan_context *context, const struct 
                 },
             .enabledLayerCount = validate ? 1 : 0,
             .ppEnabledLayerNames = (const char *[]){validation_layer},
-            .enabledExtensionCount = extension_count,
-            .ppEnabledExtensionNames = extensions,
+            .enabledExtensionCount = 1,
+            .ppEnabledExtensionNames = (const char *[]){VK_EXT_DEBUG_UTILS_EXTENSION_NAME}, /* which the loader always has */
         },
         NULL, &context->instance);
     if (result == VK_ERROR_LAYER_NOT_PRESENT)
@@ -136,8 +127,7 @@ error:
 }
 
 /* Learns what the device is and has. Higher is better; 0: it cannot be used. */
-static int inspect_device(struct vulkan_context *context, const struct vulkan_options *options,
-                          VkPhysicalDevice device)
+static int inspect_device(struct vulkan_context *context, VkPhysicalDevice device)
 {
     VkPhysicalDeviceSubgroupProperties subgroup = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES,
@@ -164,8 +154,7 @@ static int inspect_device(struct vulkan_context *context, const struct vulkan_op
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families);
     context->queue_family = UINT32_MAX;
     for (uint32_t i = count; i-- > 0;) {
-        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) &&
-            (!options->can_present || options->can_present(context->instance, device, i))) {
+        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT)) {
             context->queue_family = i;
             context->timestamp_bits = families[i].timestampValidBits;
         }
@@ -195,23 +184,20 @@ static bool device_matches(const char *choice, uint32_t index, const char *name)
 static uint32_t choose_device(struct vulkan_context *context, const struct vulkan_options *options,
                               const VkPhysicalDevice *devices, uint32_t count)
 {
-    const char *needed = options->can_present ? " that can show pictures in a window" : "";
     uint32_t chosen = count;
     int best_score = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        int score = inspect_device(context, options, devices[i]);
+        int score = inspect_device(context, devices[i]);
         if (score > best_score && device_matches(options->device, i, context->properties.deviceName)) {
             chosen = i;
             best_score = score;
         }
     }
     if (chosen == count && options->device)
-        log_error("--device %s: no usable device of this number or name%s; 'vkwhitted devices' lists them",
-                  options->device, needed);
+        log_error("--device %s: no usable device of this number or name; 'vkwhitted devices' lists them",
+                  options->device);
     else if (chosen == count)
-        log_error(
-            "no device offers Vulkan 1.2 and a compute queue%s; 'vkwhitted devices' lists what is there",
-            needed);
+        log_error("no device offers Vulkan 1.2 and a compute queue; 'vkwhitted devices' lists what is there");
     return chosen;
 }
 
@@ -248,7 +234,7 @@ error:
 }
 
 /* Opens the device that was inspected last. */
-static enum status open_device(struct vulkan_context *context, const struct vulkan_options *options)
+static enum status open_device(struct vulkan_context *context)
 {
     if (!context->has_subgroup_arithmetic) {
         log_error("%s has no arithmetic over subgroups, which the shader needs",
@@ -266,8 +252,6 @@ static enum status open_device(struct vulkan_context *context, const struct vulk
                             .queueCount = 1,
                             .pQueuePriorities = &(float){1},
                         },
-                    .enabledExtensionCount = options->can_present ? 1 : 0,
-                    .ppEnabledExtensionNames = (const char *[]){VK_KHR_SWAPCHAIN_EXTENSION_NAME},
                     .pEnabledFeatures = &(VkPhysicalDeviceFeatures){.shaderFloat64 = context->has_float64},
                 },
                 NULL, &context->device);
@@ -287,8 +271,8 @@ enum status vulkan_context_create(const struct vulkan_options *options, struct v
     if (status != STATUS_DONE)
         return status;
     if (list.chosen < list.count) {
-        inspect_device(*pointer, options, list.devices[list.chosen]);
-        status = open_device(*pointer, options);
+        inspect_device(*pointer, list.devices[list.chosen]);
+        status = open_device(*pointer);
     } else {
         status = options->device ? STATUS_REFUSED : STATUS_UNABLE;
     }
@@ -355,10 +339,10 @@ enum status vulkan_print_devices(const struct vulkan_options *options,
     struct device_list list;
     enum status status = create_context(options, &context, &list);
     for (uint32_t i = 0; i < list.count && status == STATUS_DONE; ++i) {
-        bool usable = inspect_device(context, options, list.devices[i]) > 0;
+        bool usable = inspect_device(context, list.devices[i]) > 0;
         print_device(context, i, i == list.chosen, usable);
         if (usable)
-            status = open_device(context, options);
+            status = open_device(context);
         if (usable && status == STATUS_DONE)
             status = print_more(context);
         close_device(context);
