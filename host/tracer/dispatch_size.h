@@ -1,16 +1,16 @@
 #ifndef VKWHITTED_TRACER_DISPATCH_SIZE_H
 #define VKWHITTED_TRACER_DISPATCH_SIZE_H
 
-#include "tracer/specialization.h"
+#include "packed_scene.h"
 #include "vulkan/context.h"
 
-/* How much a dispatch does. */
+/* How much a dispatch does, and how its invocations cover the picture. */
 struct dispatch_size {
-    struct group_shape shape;
-    unsigned tile_pixels; /* at most, in a tile */
-    unsigned samples;     /* at most, of each pixel */
-    unsigned
-        stack_room; /* entries of a pixel's stack that are saved for the next dispatch; 0: none is saved */
+    uint32_t group_width, group_height; /* invocations in a work group */
+    uint32_t rows;                      /* pixels that an invocation renders, one below the other */
+    unsigned tile_pixels;               /* at most, in a tile */
+    unsigned samples;                   /* at most, of each pixel */
+    unsigned stack_room; /* entries of a pixel's stack saved for the next dispatch; 0: none is saved */
 };
 
 /* Of SavedPixel and SavedPath in resume.glsl, in double; float takes less. */

@@ -1,16 +1,7 @@
 #ifndef VKWHITTED_TRACER_SPECIALIZATION_H
 #define VKWHITTED_TRACER_SPECIALIZATION_H
 
-#include <stdbool.h>
-#include <vulkan/vulkan.h>
-
-#include "packed_scene.h"
-
-/* How the shader's invocations cover the picture. */
-struct group_shape {
-    uint32_t width, height; /* invocations in a work group */
-    uint32_t rows;          /* pixels that an invocation renders, one below the other */
-};
+#include "tracer/dispatch_size.h"
 
 /* The values of the shader's constants 0, 1, 2...; shaders/scene.glsl says what they mean. */
 struct specialization {
@@ -26,8 +17,9 @@ struct specialization {
     VkBool32 resumable, rays_escape;
 };
 
-/* Finds what the scene needs, so that the pipeline holds nothing else. */
-struct specialization specialize(const struct packed_scene *scene, const struct group_shape *shape,
-                                 int output);
+/* Finds what the scene and the device, whose arithmetic is known, need, so that the pipeline holds nothing
+ * else. */
+struct specialization specialize(const struct vulkan_context *context, const struct packed_scene *scene,
+                                 const struct dispatch_size *size, int output);
 
 #endif

@@ -8,11 +8,7 @@
 #include "vulkan/probe.h"
 
 struct tracer {
-    struct vulkan_context *context;
-    const struct packed_scene *scene;
-    struct tracer_options options;
-    struct shader_choice choice;
-    struct scene_buffer scene_buffer;
+    struct dispatcher_info info;
     struct dispatcher dispatcher;
 };
 
@@ -36,37 +32,6 @@ struct shader_choice tracer_shader(const struct vulkan_context *context, const s
     };
 }
 
-static struct specialization constants_of(const struct tracer *tracer, const struct packed_scene *scene,
-                                          const struct dispatch_size *size)
-{
-    const struct arithmetic *arithmetic = &tracer->context->arithmetic;
-    struct specialization constants = specialize(scene, &size->shape, tracer->options.output);
-    constants.corrected_division = !arithmetic->division_exact;
-    constants.corrected_root = !arithmetic->root_exact;
-    /* lavapipe's limit is 65535; what is left is for loops of the driver's own making */
-    constants.turn_limit =
-        tracer->context->driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE ? 65000 : UINT32_MAX;
-    constants.resumable = size->stack_room > 0;
-    return constants;
-}
-
-static enum status create_dispatcher(const struct tracer *tracer, struct dispatch_size size,
-                                     struct dispatcher *dispatcher)
-{
-    const struct shader_choice *choice = &tracer->choice;
-    const struct dispatcher_info info = {
-        .scene = &tracer->scene_buffer,
-        .scene_in_storage = choice->scene_in_storage,
-        .code = tracer->options.code.words ? tracer->options.code
-                                           : whitted_spirv(choice->variant, choice->scene_in_storage),
-        .constants = constants_of(tracer, tracer->scene, &size),
-        .size = size,
-        .double_precision = tracer->options.double_precision,
-        .event_room = tracer->options.event_room,
-    };
-    return dispatcher_create(tracer->context, &info, dispatcher);
-}
-
 enum status tracer_create(struct vulkan_context *context, const struct packed_scene *scene,
                           const struct tracer_options *options, struct tracer **pointer)
 {
@@ -75,17 +40,18 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
         log_error("no memory for the tracer");
         return STATUS_UNABLE;
     }
-    *tracer = (struct tracer){.context = context, .scene = scene, .options = *options};
+    struct dispatcher_info *info = &tracer->info;
+    *info = (struct dispatcher_info){.context = context, .scene = scene, .options = *options};
     enum status status = options->fast ? STATUS_DONE : probe_require_exact(context);
     if (status == STATUS_DONE && options->double_precision && !context->has_float64) {
         log_error("%s has no double precision (shaderFloat64)", context->properties.deviceName);
         status = STATUS_UNABLE;
     }
-    tracer->choice = tracer_shader(context, scene, options);
+    info->choice = tracer_shader(context, scene, options);
     if (status == STATUS_DONE)
-        status = scene_buffer_create(context, scene, &tracer->scene_buffer);
+        status = scene_buffer_create(context, scene, &info->scene_buffer);
     if (status == STATUS_DONE)
-        status = create_dispatcher(tracer, dispatch_size_choose(context, scene), &tracer->dispatcher);
+        status = dispatcher_create(info, dispatch_size_choose(context, scene), &tracer->dispatcher);
     if (status != STATUS_DONE)
         tracer_destroy(pointer);
     return status;
@@ -98,18 +64,21 @@ void tracer_destroy(struct tracer **pointer)
     if (!tracer)
         return;
     dispatcher_destroy(&tracer->dispatcher);
-    vulkan_buffer_destroy(tracer->context, &tracer->scene_buffer.buffer);
+    vulkan_buffer_destroy(tracer->info.context, &tracer->info.scene_buffer.buffer);
     free(tracer);
 }
 
 bool tracer_update(struct tracer *tracer, const struct packed_scene *scene)
 {
-    const struct specialization built = constants_of(tracer, tracer->scene, &tracer->dispatcher.size);
-    const struct specialization needed = constants_of(tracer, scene, &tracer->dispatcher.size);
+    struct dispatcher_info *info = &tracer->info;
+    const struct dispatch_size *size = &tracer->dispatcher.size;
+    const int output = info->options.output;
+    const struct specialization built = specialize(info->context, info->scene, size, output);
+    const struct specialization needed = specialize(info->context, scene, size, output);
     if (memcmp(&built, &needed, sizeof built) != 0)
         return false;
-    scene_buffer_update(&tracer->scene_buffer, scene);
-    tracer->scene = scene;
+    scene_buffer_update(&info->scene_buffer, scene);
+    info->scene = scene;
     return true;
 }
 
@@ -117,8 +86,8 @@ bool tracer_update(struct tracer *tracer, const struct packed_scene *scene)
 static enum status become_resumable(struct tracer *tracer)
 {
     struct dispatcher resumable;
-    enum status status = create_dispatcher(
-        tracer, dispatch_size_resumable(tracer->dispatcher.size, tracer->scene), &resumable);
+    enum status status = dispatcher_create(
+        &tracer->info, dispatch_size_resumable(tracer->dispatcher.size, tracer->info.scene), &resumable);
     if (status != STATUS_DONE)
         return status;
     dispatcher_destroy(&tracer->dispatcher);
@@ -142,7 +111,7 @@ static void add_rays(const struct dispatcher *dispatcher, size_t pixels, struct 
 static enum status render_tile(struct tracer *tracer, struct window tile, struct reference_rays *rays,
                                double *dispatch_ms, bool *too_long)
 {
-    const struct packed_scene *scene = tracer->scene;
+    const struct packed_scene *scene = tracer->info.scene;
     const size_t pixels = (size_t)tile.width * tile.height;
     const uint32_t samples = (uint32_t)scene->samples, most = tracer->dispatcher.size.samples;
     enum status status = STATUS_DONE;
@@ -199,7 +168,7 @@ static enum status render_tiles(struct tracer *tracer, struct window window,
                                 double *dispatch_ms, bool *too_long)
 {
     /* an invocation traces all its rows, also those below the tile: whole ones, if possible */
-    const unsigned rows = tracer->dispatcher.size.shape.rows, most = tracer->dispatcher.size.tile_pixels;
+    const unsigned rows = tracer->dispatcher.size.rows, most = tracer->dispatcher.size.tile_pixels;
     unsigned tile_width = window.width < 1024 ? window.width : 1024;
     if (tile_width > most / rows)
         tile_width = most > rows ? most / rows : 1;
@@ -245,7 +214,7 @@ enum status tracer_render_values(struct tracer *tracer, struct window window,
     if (status != STATUS_DONE || !too_long)
         return status;
     log_error("%s ends the shader's loops after 65535 turns, too early for so many light samples",
-              tracer->context->properties.deviceName);
+              tracer->info.context->properties.deviceName);
     return STATUS_UNABLE;
 }
 
@@ -258,7 +227,7 @@ enum status tracer_render(struct tracer *tracer, struct window window, struct im
 
 uint32_t tracer_events(const struct tracer *tracer, const void **events)
 {
-    const struct event_block *block = tracer->dispatcher.events.mapped;
+    const struct event_block *block = tracer->dispatcher.buffers[EVENTS].mapped;
     *events = block + 1;
     return block->count;
 }

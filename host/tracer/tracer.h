@@ -10,14 +10,6 @@
 /* The compute pipeline for one packed scene, specialised to it. */
 struct tracer;
 
-struct tracer_options {
-    bool double_precision; /* exact mode only, on a device with fp64 */
-    bool fast;             /* contraction and built-in functions allowed */
-    int output;            /* OUTPUT_ of scene_layout.h */
-    uint32_t event_room;   /* 0: no events are recorded; exact mode only */
-    struct spirv code;     /* of the shader that tracer_shader() tells; empty: the built-in one */
-};
-
 /* Which of the shader's variants a tracer needs, on a device whose arithmetic is known. */
 struct shader_choice tracer_shader(const struct vulkan_context *context, const struct packed_scene *scene,
                                    const struct tracer_options *options);

@@ -10,12 +10,10 @@ enum status vulkan_compute(struct vulkan_context *context, const struct compute_
     struct vulkan_pass pass = {0};
     struct vulkan_command command = {0};
     double unused_ms;
-    enum status status = vulkan_buffer_create(context, "input", job->input_size,
-                                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BUFFER_UPLOAD, &input);
+    enum status status = vulkan_buffer_create(context, "input", job->input_size, BUFFER_UPLOAD, &input);
     if (status == STATUS_DONE) {
         memcpy(input.mapped, job->input, job->input_size);
-        status = vulkan_buffer_create(context, "output", job->output_size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                      BUFFER_READBACK, &output);
+        status = vulkan_buffer_create(context, "output", job->output_size, BUFFER_READBACK, &output);
     }
     if (status == STATUS_DONE)
         status = vulkan_pass_create(

@@ -127,8 +127,8 @@ static enum status create_picture(struct swapchain *swapchain, VkExtent2D extent
                 NULL, &swapchain->picture_memory);
     VULKAN_CALL(vkBindImageMemory, context->device, swapchain->picture, swapchain->picture_memory, 0);
     return vulkan_buffer_create(context, "picture for the window",
-                                4 * (VkDeviceSize)extent.width * extent.height,
-                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BUFFER_UPLOAD, &swapchain->pixels);
+                                4 * (VkDeviceSize)extent.width * extent.height, BUFFER_UPLOAD,
+                                &swapchain->pixels);
 
 error:
     return STATUS_UNABLE;

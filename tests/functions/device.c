@@ -19,16 +19,13 @@ enum status device_create(struct vulkan_context *context, bool corrected, struct
     device->corrected_division = corrected || !context->arithmetic.division_exact;
     device->corrected_root = corrected || !context->arithmetic.root_exact;
     if (status == STATUS_DONE)
-        status = vulkan_buffer_create(context, "scene", SCENE_BYTES, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                                      BUFFER_UPLOAD, &device->scene);
+        status = vulkan_buffer_create(context, "scene", SCENE_BYTES, BUFFER_UPLOAD, &device->scene);
     if (status == STATUS_DONE)
         memset(device->scene.mapped, 0, SCENE_BYTES);
     if (status == STATUS_DONE)
-        status = vulkan_buffer_create(context, "inputs", size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                      BUFFER_UPLOAD, &device->inputs);
+        status = vulkan_buffer_create(context, "inputs", size, BUFFER_UPLOAD, &device->inputs);
     if (status == STATUS_DONE)
-        status = vulkan_buffer_create(context, "outputs", size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                      BUFFER_READBACK, &device->outputs);
+        status = vulkan_buffer_create(context, "outputs", size, BUFFER_READBACK, &device->outputs);
     if (status == STATUS_DONE)
         status = vulkan_command_create(context, &device->command);
     if (status != STATUS_DONE)
