@@ -130,7 +130,7 @@ enum status dispatcher_run(struct dispatcher *dispatcher, const struct portion *
                        (portion->tile_width + size->group_width - 1) / size->group_width,
                        (portion->tile_height + group_rows - 1) / group_rows);
     if (dispatcher->staging.buffer) {
-        vulkan_record_barrier(command->buffer, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+        vulkan_record_barrier(command->buffer);
         vkCmdCopyBuffer(
             command->buffer, dispatcher->buffers[PICTURE].buffer, dispatcher->staging.buffer, 1,
             &(VkBufferCopy){

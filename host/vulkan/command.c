@@ -49,14 +49,14 @@ void vulkan_command_destroy(struct vulkan_command *command)
     *command = (struct vulkan_command){0};
 }
 
-void vulkan_record_barrier(VkCommandBuffer commands, VkPipelineStageFlags to, VkAccessFlags accesses)
+void vulkan_record_barrier(VkCommandBuffer commands)
 {
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, to,
-                         0, 1,
+    const VkPipelineStageFlags device = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    vkCmdPipelineBarrier(commands, device, device | VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
                          &(VkMemoryBarrier){
                              .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                             .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                             .dstAccessMask = accesses,
+                             .srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT,
+                             .dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT,
                          },
                          0, NULL, 0, NULL);
 }
@@ -72,10 +72,7 @@ enum status vulkan_command_begin(struct vulkan_command *command, const char *lab
                                                        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
                                                        .pLabelName = label,
                                                    });
-    vulkan_record_barrier(command->buffer,
-                          VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                          VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
-                              VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    vulkan_record_barrier(command->buffer);
     if (command->timestamps)
         vkCmdResetQueryPool(command->buffer, command->timestamps, 0, TIMESTAMPS);
     return STATUS_DONE;
@@ -86,7 +83,7 @@ error:
 
 enum status vulkan_command_submit(struct vulkan_command *command)
 {
-    vulkan_record_barrier(command->buffer, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    vulkan_record_barrier(command->buffer);
     command->context->end_label(command->buffer);
     VULKAN_CALL(vkEndCommandBuffer, command->buffer);
     command->submitted_ms = clock_ms();

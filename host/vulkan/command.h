@@ -32,7 +32,7 @@ enum status vulkan_command_submit(struct vulkan_command *command);
  * timestamps, or, where there are none, the time since the submission. */
 enum status vulkan_command_wait(struct vulkan_command *command, double *device_ms);
 
-/* Records that what shaders and transfers have written so far is seen by the stages that follow. */
-void vulkan_record_barrier(VkCommandBuffer commands, VkPipelineStageFlags to, VkAccessFlags accesses);
+/* Records that all that was written on the device so far is seen by what follows, and by the host. */
+void vulkan_record_barrier(VkCommandBuffer commands);
 
 #endif

@@ -5,9 +5,7 @@
 
 /* A dispatch with an input (binding 0 of set 0) and an output (binding 1), both storage buffers. */
 struct compute_job {
-    struct spirv code;
-    const struct pass_constant *constants;
-    uint32_t constant_count;
+    struct pass_info pass; /* but for the bindings */
     const void *input;
     size_t input_size; /* bytes */
     void *output;

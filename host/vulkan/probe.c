@@ -98,7 +98,7 @@ enum status probe_arithmetic(struct vulkan_context *context)
     if (operands && results) {
         hostile_operands(seed, operands, PROBES);
         status = vulkan_compute(context, &(struct compute_job){
-                                             .code = {arithmetic_probe, sizeof arithmetic_probe},
+                                             .pass = {"probe", {arithmetic_probe, sizeof arithmetic_probe}},
                                              .input = operands,
                                              .input_size = PROBES * sizeof *operands,
                                              .output = results,
