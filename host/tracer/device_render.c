@@ -68,16 +68,10 @@ enum status signatures_on_device(struct vulkan_context *context, const struct re
 static enum status bound_truncation(struct vulkan_context *context, const struct render_plan *plan,
                                     struct image *image)
 {
-    struct image charges;
-    image->truncation = allocate_pixels(&plan->window, sizeof *image->truncation);
-    enum status status =
-        image->truncation ? image_create(image->width, image->height, &charges) : STATUS_UNABLE;
-    if (status != STATUS_DONE)
-        return status;
-    status = render_output(context, plan, OUTPUT_TRUNCATION, &(struct tracer_values){.image = &charges});
-    for (size_t i = 0; status == STATUS_DONE && i < (size_t)charges.width * charges.height; ++i)
-        image->truncation[i] = (float)truncation_bound(plan->scene, (double)charges.rgb[3 * i]);
-    image_destroy(&charges);
+    enum status status = render_output(context, plan, OUTPUT_TRUNCATION,
+                                       &(struct tracer_values){.charges = image->truncation});
+    for (size_t i = 0; status == STATUS_DONE && i < (size_t)image->width * image->height; ++i)
+        image->truncation[i] = (float)truncation_bound(plan->scene, (double)image->truncation[i]);
     return status;
 }
 

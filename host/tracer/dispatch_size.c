@@ -1,4 +1,4 @@
-#include "tracer/dispatch_size.h"
+#include "tracer/specialization.h"
 
 enum { LEAST_TILE_PIXELS = 1024, MOST_TILE_PIXELS = 1 << 21, LARGEST_PIXEL = 3 * sizeof(double) };
 
@@ -15,26 +15,18 @@ static unsigned choose_tile_pixels(const struct vulkan_context *context, const s
     return (unsigned)(pixels < fitting ? pixels : fitting);
 }
 
-static bool has_secondary_rays(const struct packed_scene *scene)
-{
-    bool found = false;
-    for (int i = 0; i < scene->sphere_count; ++i)
-        found |= scene->spheres[i].surface.tags.SURFACE_KIND != KIND_MATTE;
-    for (int i = 0; i < scene->plane_count; ++i)
-        found |= scene->planes[i].surface.tags.SURFACE_KIND != KIND_MATTE;
-    return found && scene->max_bounces > 0;
-}
-
 /* So many that an invocation's loops stay well below lavapipe's limit, as far as can be told beforehand: as
  * resume.glsl counts them, with 16 rays and as many leaves where there are secondary rays. */
-static unsigned choose_samples(const struct packed_scene *scene, unsigned rows)
+static unsigned choose_samples(const struct vulkan_context *context, const struct packed_scene *scene,
+                               const struct dispatch_size *size)
 {
+    struct specialization constants = specialize(context, scene, size, OUTPUT_RADIANCE);
     uint64_t objects = (uint64_t)(scene->sphere_count + scene->plane_count);
     uint64_t lights = (uint64_t)scene->point_light_count +
                       (uint64_t)scene->quad_light_count * (uint64_t)scene->light_samples;
-    uint64_t rays = has_secondary_rays(scene) ? 16 : 1;
+    uint64_t rays = (constants.mirrors || constants.glass) && scene->max_bounces > 0 ? 16 : 1;
     uint64_t turns_over_objects = objects <= 8 ? 1 : 1 + objects;
-    uint64_t samples = (UINT64_C(1) << 15) / (rows * rays * turns_over_objects * (1 + lights));
+    uint64_t samples = (UINT64_C(1) << 15) / (size->rows * rays * turns_over_objects * (1 + lights));
     samples = samples < 1 ? 1 : samples;
     return (unsigned)(samples < (uint64_t)scene->samples ? samples : (uint64_t)scene->samples);
 }
@@ -49,7 +41,7 @@ struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
         .group_height = on_processor ? 1 : 8,
         .rows = on_processor ? 16 : 1,
     };
-    size.samples = choose_samples(scene, size.rows);
+    size.samples = choose_samples(context, scene, &size);
     size.tile_pixels = choose_tile_pixels(context, scene, size.samples);
     return size;
 }

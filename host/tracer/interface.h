@@ -28,7 +28,7 @@ enum whitted_variant {
     WHITTED_CORRECTED, /* for a device whose / or sqrt is not exact */
     WHITTED_DOUBLE,    /* exact, in double precision */
     WHITTED_FAST,
-    /* these tell of one pixel, see shaders/events.glsl */
+    /* these tell of one pixel, see shaders/events.glsl; in the order of those above */
     WHITTED_EXACT_EVENTS,
     WHITTED_CORRECTED_EVENTS,
     WHITTED_DOUBLE_EVENTS,

@@ -31,7 +31,6 @@ enum status job_create_from(const struct job_options *options, struct scene *sce
         .has_max_error = options->has_max_error,
         .max_error = options->max_error,
     };
-    job->max_bounces = settings.max_bounces;
     job->plan = (struct render_plan){
         .scene = &job->packed,
         .precision = options->precision,
@@ -74,7 +73,7 @@ enum status job_write(const struct job *job, const struct image *image, const ch
         .scene = job->scene.path,
         .device = device,
         .precision = precision_name(job->plan.precision),
-        .max_bounces = job->max_bounces,
+        .max_bounces = (unsigned)job->packed.max_bounces,
     };
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < path_count && status == STATUS_DONE; ++i)

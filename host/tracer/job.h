@@ -28,7 +28,6 @@ struct job {
     struct scene scene;
     struct packed_scene packed;
     struct render_plan plan;
-    unsigned max_bounces;
 };
 
 /* Reads and packs the scene. On failure (reported) the job is empty; otherwise the caller frees it. */

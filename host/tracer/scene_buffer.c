@@ -1,4 +1,4 @@
-#include "tracer/scene_buffer.h"
+#include "tracer/dispatch.h"
 
 #include <string.h>
 

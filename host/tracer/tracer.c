@@ -15,19 +15,13 @@ struct tracer {
 struct shader_choice tracer_shader(const struct vulkan_context *context, const struct packed_scene *scene,
                                    const struct tracer_options *options)
 {
-    static const enum whitted_variant with_events[] = {
-        [WHITTED_EXACT] = WHITTED_EXACT_EVENTS,
-        [WHITTED_CORRECTED] = WHITTED_CORRECTED_EVENTS,
-        [WHITTED_DOUBLE] = WHITTED_DOUBLE_EVENTS,
-        [WHITTED_FAST] = WHITTED_FAST, /* which records none */
-    };
     bool native = context->arithmetic.division_exact && context->arithmetic.root_exact;
     enum whitted_variant variant = options->double_precision ? WHITTED_DOUBLE
                                    : options->fast           ? WHITTED_FAST
                                    : native                  ? WHITTED_EXACT
                                                              : WHITTED_CORRECTED;
     return (struct shader_choice){
-        .variant = options->event_room > 0 ? with_events[variant] : variant,
+        .variant = options->event_room > 0 ? WHITTED_EXACT_EVENTS + variant : variant,
         .scene_in_storage = scene_needs_storage(context, scene),
     };
 }
@@ -149,6 +143,10 @@ static void copy_row(const struct dispatcher *dispatcher, size_t first, size_t p
     const double *doubles = dispatcher->values;
     for (size_t i = 0; values->signatures && i < pixels; ++i)
         values->signatures[place + i] = integers[CHANNELS * (first + i) + 1];
+    for (size_t i = 0; values->charges && i < pixels; ++i)
+        values->charges[place + i] = dispatcher->value_type == VALUE_DOUBLE
+                                         ? (float)doubles[CHANNELS * (first + i)]
+                                         : floats[CHANNELS * (first + i)];
     if (!values->image)
         return;
     float *rgb = values->image->rgb + CHANNELS * place;

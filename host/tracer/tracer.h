@@ -35,6 +35,7 @@ struct tracer_values {
     struct image *image; /* of the window's size; gets the values in double precision too, if it has room */
     struct reference_rays *rays; /* OUTPUT_RAYS: the sums over the window */
     uint32_t *signatures;        /* OUTPUT_SIGNATURE: a pixel each */
+    float *charges;              /* OUTPUT_TRUNCATION: a pixel each */
 };
 
 /* Renders the window of the picture. *dispatch_ms gets the time that the device spent (device timestamps
