@@ -1,73 +1,14 @@
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include <cmocka.h>
 
-#include "scene/scene.h"
+#include "scene_capture.h"
 #include "scenes_bad.h"
-
-static char messages[1 << 16]; /* what the latest read printed to standard error */
-
-static FILE *start_capture(int *saved)
-{
-    FILE *file = tmpfile();
-    assert_non_null(file);
-    fflush(stderr);
-    *saved = dup(STDERR_FILENO);
-    assert_true(dup2(fileno(file), STDERR_FILENO) >= 0);
-    return file;
-}
-
-static void end_capture(FILE *file, int saved)
-{
-    fflush(stderr);
-    dup2(saved, STDERR_FILENO);
-    close(saved);
-    rewind(file);
-    messages[fread(messages, 1, sizeof(messages) - 1, file)] = '\0';
-    fclose(file);
-}
-
-static enum status read_bytes(const char *text, size_t length, struct scene *scene)
-{
-    int saved;
-    FILE *file = start_capture(&saved);
-    char *copy = malloc(length + 1); /* without a terminator, so that a read past the end is noticed */
-    assert_non_null(copy);
-    memcpy(copy, text, length);
-    enum status status = scene_read_text("bad.yaml", copy, length, scene);
-    free(copy);
-    end_capture(file, saved);
-    return status;
-}
-
-static enum status read_text(const char *text, struct scene *scene)
-{
-    return read_bytes(text, strlen(text), scene);
-}
-
-static enum status read_file(const char *path, struct scene *scene)
-{
-    int saved;
-    FILE *file = start_capture(&saved);
-    enum status status = scene_read(path, scene);
-    end_capture(file, saved);
-    return status;
-}
-
-static void read_good(const char *text, struct scene *scene)
-{
-    if (read_text(text, scene) != STATUS_DONE)
-        fail_msg("refused: %s", messages);
-    assert_string_equal(messages, "");
-}
 
 static void assert_empty(const struct scene *scene)
 {
@@ -272,6 +213,27 @@ static void test_byte_order_mark_line_ends_and_aliases(void **state)
     assert_non_null(strstr(messages, "\nmax_bounces:\t-1\n            \t^\n"));
 }
 
+static void test_long_names(void **state)
+{
+    (void)state;
+    for (size_t length = 500; length < 520; ++length) {
+        char text[1024] = HEAD "materials: [{ type: mirror, name: ";
+        struct scene scene;
+        size_t start = strlen(text);
+        memset(text + start, 'n', length);
+        strcpy(text + start + length, " }]\n");
+        if (length < 512) {
+            read_good(text, &scene);
+            assert_int_equal(strlen(scene.materials[0].name), length);
+            scene_destroy(&scene);
+        } else {
+            assert_int_equal(read_text(text, &scene), STATUS_REFUSED);
+            assert_non_null(strstr(messages, "bad.yaml:3:35: error: mirror material \"nnn"));
+            assert_non_null(strstr(messages, "nnn...\": name must be shorter than 512 bytes, is \"nnn"));
+        }
+    }
+}
+
 /* Not every "&" is an anchor, nor every bracket one that opens a list. */
 static void test_signs_in_names(void **state)
 {
@@ -422,10 +384,15 @@ static void test_figures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_scenes),     cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_every_field),    cmocka_unit_test(test_byte_order_mark_line_ends_and_aliases),
-        cmocka_unit_test(test_signs_in_names), cmocka_unit_test(test_every_error_in_file_order),
-        cmocka_unit_test(test_hostile_texts),  cmocka_unit_test(test_files_that_cannot_be_scenes),
+        cmocka_unit_test(test_bad_scenes),
+        cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_every_field),
+        cmocka_unit_test(test_byte_order_mark_line_ends_and_aliases),
+        cmocka_unit_test(test_long_names),
+        cmocka_unit_test(test_signs_in_names),
+        cmocka_unit_test(test_every_error_in_file_order),
+        cmocka_unit_test(test_hostile_texts),
+        cmocka_unit_test(test_files_that_cannot_be_scenes),
         cmocka_unit_test(test_figures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

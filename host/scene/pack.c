@@ -222,7 +222,7 @@ static bool holds_rays(const struct packed_scene *packed, int sphere)
     const struct PackedSphere *holder = &packed->spheres[sphere];
     struct dvec3 center = dvec3_of_vec4(holder->center_radius);
     double radius = (double)holder->center_radius.w;
-    if (dvec3_length(dvec3_subtract(dvec3_of_vec4(packed->view.position), center)) < radius)
+    if (dvec3_distance(dvec3_of_vec4(packed->view.position), center) < radius)
         return true;
     if (!is_transparent(&holder->surface))
         return false;
@@ -231,7 +231,7 @@ static bool holds_rays(const struct packed_scene *packed, int sphere)
             return true;
     for (int i = 0; i < packed->sphere_count; ++i) {
         layout_vec4 other = packed->spheres[i].center_radius;
-        double apart = dvec3_length(dvec3_subtract(dvec3_of_vec4(other), center));
+        double apart = dvec3_distance(dvec3_of_vec4(other), center);
         if (i != sphere && reaches_into(fabs(apart - (double)other.w), holder->center_radius))
             return true;
     }
@@ -245,7 +245,7 @@ static bool holds_lights(const struct packed_scene *packed, const struct PackedS
     double radius = (double)sphere->center_radius.w;
     for (int i = 0; i < packed->point_light_count; ++i) {
         struct dvec3 light = dvec3_of_vec4(packed->point_lights[i].position);
-        if (dvec3_length(dvec3_subtract(light, center)) < radius)
+        if (dvec3_distance(light, center) < radius)
             return true;
     }
     for (int i = 0; i < packed->quad_light_count; ++i) {
@@ -253,7 +253,7 @@ static bool holds_lights(const struct packed_scene *packed, const struct PackedS
         struct dvec3 u = dvec3_of_vec4(quad->edge_u), v = dvec3_of_vec4(quad->edge_v);
         struct dvec3 middle = dvec3_add(dvec3_of_vec4(quad->corner), dvec3_scale(0.5, dvec3_add(u, v)));
         double reach = (dvec3_length(u) + dvec3_length(v)) / 2;
-        if (dvec3_length(dvec3_subtract(middle, center)) < radius + reach)
+        if (dvec3_distance(middle, center) < radius + reach)
             return true;
     }
     return false;

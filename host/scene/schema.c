@@ -123,11 +123,13 @@ void read_name(struct mapping *mapping, const struct field *field, const struct 
                void *member)
 {
     char **name = member;
-    bool printable = value->length > 0 && value->length < YAML_TEXT_SIZE;
-    for (size_t i = 0; i < value->length && printable; i++)
+    bool printable = value->length > 0;
+    for (size_t i = 0; i < value->length && i < YAML_TEXT_SIZE - 1 && printable; i++)
         printable = (unsigned char)value->text[i] >= 0x20 && value->text[i] != 0x7F;
     if (!printable)
         schema_expect(mapping, value, field->name, "a word or text in one line");
+    else if (value->length >= YAML_TEXT_SIZE)
+        schema_expect(mapping, value, field->name, "shorter than 512 bytes");
     else if (!(*name = strdup(value->text)))
         mapping->report->no_memory = true;
 }

@@ -34,7 +34,7 @@ struct body {
 /* Signed: positive outside the sphere and on the side of the plane's normal. */
 static double distance_from(const struct body *body, struct dvec3 point)
 {
-    return body->is_sphere ? dvec3_length(dvec3_subtract(point, body->vector)) - body->number
+    return body->is_sphere ? dvec3_distance(point, body->vector) - body->number
                            : dvec3_dot(body->vector, point) - body->number;
 }
 
@@ -42,7 +42,7 @@ static double distance_from_segment(struct dvec3 from, struct dvec3 edge, struct
 {
     double along = dvec3_dot(dvec3_subtract(point, from), edge) / dvec3_dot(edge, edge);
     struct dvec3 nearest = dvec3_add(from, dvec3_scale(fmin(1, fmax(0, along)), edge));
-    return dvec3_length(dvec3_subtract(point, nearest));
+    return dvec3_distance(point, nearest);
 }
 
 static double distance_from_quad(const struct PackedQuadLight *quad, struct dvec3 point)

@@ -65,6 +65,11 @@ static inline double dvec3_length(struct dvec3 v)
     return ldexp(sqrt(dvec3_dot(near_one, near_one)), exponent);
 }
 
+static inline double dvec3_distance(struct dvec3 a, struct dvec3 b)
+{
+    return dvec3_length(dvec3_subtract(a, b));
+}
+
 static inline struct dvec3 dvec3_unit(struct dvec3 v)
 {
     int exponent;

@@ -13,7 +13,7 @@ static const double resolution = 0x1p-21;
 static double distance_from(const struct scene_object *surface, struct dvec3 point)
 {
     if (surface->type == OBJECT_SPHERE)
-        return dvec3_length(dvec3_subtract(point, dvec3_of(surface->sphere.center))) - surface->sphere.radius;
+        return dvec3_distance(point, dvec3_of(surface->sphere.center)) - surface->sphere.radius;
     return dvec3_dot(dvec3_unit(dvec3_of(surface->plane.normal)),
                      dvec3_subtract(point, dvec3_of(surface->plane.point)));
 }
