@@ -17,8 +17,7 @@
 #include "arithmetic_far.h"
 #include "arithmetic_native.h"
 #include "arithmetic_within_bounds.h"
-#include "vulkan/compute.h"
-#include "vulkan/hostile_operands.h"
+#include "vulkan/pass.h"
 #include "vulkan/probe.h"
 
 enum { BATCH = 1 << 20, BATCHES = 4, GROUP = 64 };
@@ -68,7 +67,7 @@ static void fill(uint64_t seed, int batch, struct words *operands)
     hostile_operands(state, hostile, BATCH);
     for (size_t i = 0; i < BATCH; ++i)
         operands[i] = i / 8 % 2 ? (struct words){bits_of(hostile[i].a), bits_of(hostile[i].b)}
-                                : (struct words){random_bits(&state), random_bits(&state)};
+                                : (struct words){random_word(&state), random_word(&state)};
     free(hostile);
     if (batch == 0)
         (void)edge_pairs(operands);

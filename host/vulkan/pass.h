@@ -55,4 +55,17 @@ void vulkan_pass_destroy(struct vulkan_pass *pass);
 void vulkan_pass_record(const struct vulkan_pass *pass, const struct vulkan_command *command,
                         const void *push_constants, uint32_t groups_x, uint32_t groups_y);
 
+/* A dispatch with an input (binding 0 of set 0) and an output (binding 1), both storage buffers. */
+struct compute_job {
+    struct pass_info pass; /* but for the bindings */
+    const void *input;
+    size_t input_size; /* bytes */
+    void *output;
+    size_t output_size;
+    uint32_t groups;
+};
+
+/* Runs the job once and waits for it. Failures are reported. */
+enum status vulkan_compute(struct vulkan_context *context, const struct compute_job *job);
+
 #endif
