@@ -1,7 +1,5 @@
 #include "tracer/dispatch.h"
 
-#include <stdio.h>
-
 #include "base/clock.h"
 
 enum { CONSTANTS = sizeof(struct specialization) / sizeof(uint32_t) };
@@ -118,12 +116,8 @@ enum status dispatcher_run(struct dispatcher *dispatcher, const struct portion *
     struct vulkan_command *command = &dispatcher->command;
     const struct dispatch_size *size = &dispatcher->size;
     const unsigned group_rows = size->group_height * size->rows;
-    char label[96];
     double device_ms = 0;
-    snprintf(label, sizeof label, "tile of %ux%u at %u, %u, samples %u to %u", portion->tile_width,
-             portion->tile_height, portion->tile_x, portion->tile_y, portion->first_sample,
-             portion->end_sample);
-    enum status status = vulkan_command_begin(command, label);
+    enum status status = vulkan_command_begin(command, "tile");
     if (status != STATUS_DONE)
         return status;
     vulkan_pass_record(&dispatcher->pass, command, portion,

@@ -89,7 +89,7 @@ static enum status become_resumable(struct tracer *tracer)
     return STATUS_DONE;
 }
 
-/* Adds what the last dispatch has traced in so many pixels; the values do not tell the primary rays. No count
+/* Adds what the last dispatch has traced in so many pixels; the values do not tell primary rays. No count
  * wraps around: 2^32 rays would take the pixel's invocation minutes, and a driver ends it before, lavapipe
  * after 65535 turns of its loops, a graphics card's after some seconds. */
 static void add_rays(const struct dispatcher *dispatcher, size_t pixels, struct reference_rays *rays)
@@ -127,8 +127,6 @@ static enum status render_tile(struct tracer *tracer, struct window tile, struct
                 add_rays(&tracer->dispatcher, pixels, rays);
             portion.goes_on = 1;
         } while (mark == UNFINISHED);
-        if (rays)
-            rays->primary += pixels * (end - first);
         *too_long = mark <= TOO_LONG;
     }
     return status;
@@ -174,7 +172,8 @@ static enum status render_tiles(struct tracer *tracer, struct window window,
     tile_height -= tile_height > rows ? tile_height % rows : 0;
     *dispatch_ms = 0;
     if (values->rays)
-        *values->rays = (struct reference_rays){0};
+        *values->rays = (struct reference_rays){.primary = (uint64_t)window.width * window.height *
+                                                           (uint64_t)tracer->info.scene->samples};
     for (unsigned y = 0; y < window.height; y += tile_height) {
         for (unsigned x = 0; x < window.width; x += tile_width) {
             struct window tile = {

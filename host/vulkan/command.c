@@ -61,17 +61,14 @@ void vulkan_record_barrier(VkCommandBuffer commands)
                          0, NULL, 0, NULL);
 }
 
-enum status vulkan_command_begin(struct vulkan_command *command, const char *label)
+enum status vulkan_command_begin(struct vulkan_command *command, const char *name)
 {
+    vulkan_name(command->context, VK_OBJECT_TYPE_COMMAND_BUFFER, (uint64_t)command->buffer, name);
     VULKAN_CALL(vkBeginCommandBuffer, command->buffer,
                 &(VkCommandBufferBeginInfo){
                     .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                     .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
                 });
-    command->context->begin_label(command->buffer, &(VkDebugUtilsLabelEXT){
-                                                       .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
-                                                       .pLabelName = label,
-                                                   });
     vulkan_record_barrier(command->buffer);
     if (command->timestamps)
         vkCmdResetQueryPool(command->buffer, command->timestamps, 0, TIMESTAMPS);
@@ -84,7 +81,6 @@ error:
 enum status vulkan_command_submit(struct vulkan_command *command)
 {
     vulkan_record_barrier(command->buffer);
-    command->context->end_label(command->buffer);
     VULKAN_CALL(vkEndCommandBuffer, command->buffer);
     command->submitted_ms = clock_ms();
     VULKAN_CALL(vkQueueSubmit, command->context->queue, 1,

@@ -21,9 +21,9 @@ enum status vulkan_command_create(struct vulkan_context *context, struct vulkan_
 /* Destroys a command that is not under way, or nothing, and empties *command. */
 void vulkan_command_destroy(struct vulkan_command *command);
 
-/* Starts a new recording under this label, for debuggers. What is recorded sees all that was written on the
+/* Starts a new recording under this name, for debuggers. What is recorded sees all that was written on the
  * device before. Failures, here and below, are reported. */
-enum status vulkan_command_begin(struct vulkan_command *command, const char *label);
+enum status vulkan_command_begin(struct vulkan_command *command, const char *name);
 
 /* Ends the recording, so that the host will see what it writes, and hands it to the device. */
 enum status vulkan_command_submit(struct vulkan_command *command);

@@ -127,8 +127,6 @@ static enum status create_instance(struct vulkan_context *context, const struct 
     if (result != VK_SUCCESS)
         return STATUS_UNABLE;
     context->set_object_name = FIND(context, vkSetDebugUtilsObjectNameEXT);
-    context->begin_label = FIND(context, vkCmdBeginDebugUtilsLabelEXT);
-    context->end_label = FIND(context, vkCmdEndDebugUtilsLabelEXT);
     PFN_vkCreateDebugUtilsMessengerEXT create_messenger = FIND(context, vkCreateDebugUtilsMessengerEXT);
     if (validate)
         VULKAN_CALL(create_messenger, context->instance, &messenger_info, NULL, &context->messenger);

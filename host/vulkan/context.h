@@ -40,11 +40,7 @@ struct vulkan_context {
     VkQueue queue;
     struct arithmetic arithmetic; /* not known before probe_arithmetic() */
     atomic_uint validation_messages;
-
-    /* Of VK_EXT_debug_utils. */
     PFN_vkSetDebugUtilsObjectNameEXT set_object_name;
-    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label;
-    PFN_vkCmdEndDebugUtilsLabelEXT end_label;
 };
 
 struct vulkan_options {
