@@ -7,9 +7,4 @@ foreach(name window input watch)
     target_link_libraries(display_${name} PRIVATE vkwhitted_host PkgConfig::cmocka PkgConfig::x11)
     add_test(NAME display/${name} COMMAND display_${name})
     set_tests_properties(display/${name} PROPERTIES LABELS display TIMEOUT 300)
-    if(VKWHITTED_TEST_ELSEWHERE AND NOT name STREQUAL "watch") # whose pipelines take SwiftShader half a minute
-        add_test(NAME elsewhere/swiftshader/display_${name} COMMAND display_${name})
-        set_tests_properties(elsewhere/swiftshader/display_${name} PROPERTIES LABELS elsewhere TIMEOUT 300
-                             ENVIRONMENT "${swiftshader}")
-    endif()
 endforeach()

@@ -131,5 +131,5 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_pointer, open_window, close_window),
         cmocka_unit_test_setup_teardown(test_wait, open_window, close_window),
     };
-    return cmocka_run_group_tests(tests, open_context, close_context);
+    return cmocka_run_group_tests(tests, open_server, close_server);
 }

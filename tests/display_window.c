@@ -104,7 +104,7 @@ static void test_uncovered(void **state)
     assert_shows(WIDTH, HEIGHT);
 }
 
-/* Larger than any device's images. */
+/* Larger than any texture. */
 static void test_too_large(void **state)
 {
     (void)state;
@@ -139,10 +139,9 @@ static void test_no_display(void **state)
     static const char *const names[] = {"", ":4711"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         char line[256];
-        struct vulkan_options options = {0};
         setenv("DISPLAY", names[i], 1);
         test_messages_begin();
-        enum status status = display_connect(&options);
+        enum status status = display_connect();
         test_messages_end(line);
         assert_int_equal(status, STATUS_UNABLE);
         assert_non_null(strstr(line, "error: cannot open a window: "));
@@ -161,6 +160,6 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_title, open_window, close_window),
     };
     const struct CMUnitTest without_server[] = {cmocka_unit_test(test_no_display)};
-    int failures = cmocka_run_group_tests(with_server, open_context, close_context);
+    int failures = cmocka_run_group_tests(with_server, open_server, close_server);
     return failures + cmocka_run_group_tests(without_server, NULL, NULL);
 }

@@ -7,18 +7,15 @@
 
 #include "base/clock.h"
 #include "watch/display.h"
-#include "watch/swapchain.h"
 #include "x11_window.h"
 #include "xvfb.h"
 
-/* A window on an X server of the test's own, with the validation layer watching throughout. Include after
- * cmocka.h. */
+/* A window on an X server of the test's own. Include after cmocka.h. */
 
 enum { WIDTH = 320, HEIGHT = 200 };
 static const double patience_ms = 30000; /* more than a loaded machine takes */
 
 static pid_t server;
-static struct vulkan_context *context;
 static struct display *display;
 static struct x11_window window;
 static unsigned char rgba[WIDTH * HEIGHT * 4];
@@ -31,24 +28,19 @@ static inline void draw_noise(uint32_t seed)
     }
 }
 
-static inline int open_context(void **state)
+static inline int open_server(void **state)
 {
     (void)state;
     server = xvfb_start();
-    struct vulkan_options options = {.validate = true};
-    return server > 0 && display_connect(&options) == STATUS_DONE &&
-                   vulkan_context_create(&options, &context) == STATUS_DONE
-               ? 0
-               : -1;
+    return server > 0 && display_connect() == STATUS_DONE ? 0 : -1;
 }
 
-static inline int close_context(void **state)
+static inline int close_server(void **state)
 {
     (void)state;
-    enum status status = vulkan_context_destroy(&context);
     display_disconnect();
     xvfb_kill(server);
-    return status == STATUS_DONE ? 0 : -1;
+    return 0;
 }
 
 static inline enum status show_picture(void)
@@ -65,7 +57,7 @@ static inline int open_window(void **state)
 {
     (void)state;
     draw_noise(1);
-    return display_create(context, WIDTH, HEIGHT, &display) == STATUS_DONE && x11_window_find(&window) &&
+    return display_create(WIDTH, HEIGHT, &display) == STATUS_DONE && x11_window_find(&window) &&
                    show_picture() == STATUS_DONE
                ? 0
                : -1;
@@ -122,13 +114,12 @@ static inline bool is_between(double x, double y, int channel, double value)
     return fabs(value - mean) <= 3;
 }
 
-static inline bool is_right(unsigned x, unsigned y, VkRect2D fit, const unsigned char *bgr)
+static inline bool is_right(unsigned x, unsigned y, struct area fit, const unsigned char *bgr)
 {
-    unsigned across = x - (unsigned)fit.offset.x, down = y - (unsigned)fit.offset.y;
-    bool inside = across < fit.extent.width && down < fit.extent.height;
-    bool enlarged = fit.extent.width >= WIDTH && fit.extent.height >= HEIGHT;
-    double source_x = source_of(across, fit.extent.width, WIDTH),
-           source_y = source_of(down, fit.extent.height, HEIGHT);
+    unsigned across = x - fit.x, down = y - fit.y;
+    bool inside = across < fit.width && down < fit.height;
+    bool enlarged = fit.width >= WIDTH && fit.height >= HEIGHT;
+    double source_x = source_of(across, fit.width, WIDTH), source_y = source_of(down, fit.height, HEIGHT);
     bool right = true;
     for (int channel = 0; channel < 3; ++channel) {
         double value = bgr[2 - channel];
@@ -143,7 +134,7 @@ static inline bool is_right(unsigned x, unsigned y, VkRect2D fit, const unsigned
 static inline size_t count_wrong_pixels(unsigned width, unsigned height)
 {
     size_t count = (size_t)width * height, wrong = 0;
-    const VkRect2D fit = fit_picture((VkExtent2D){WIDTH, HEIGHT}, (VkExtent2D){width, height});
+    const struct area fit = fit_picture((struct extent){WIDTH, HEIGHT}, (struct extent){width, height});
     XImage *image = x11_window_pixels(&window);
     if (!image)
         return count;

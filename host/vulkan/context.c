@@ -28,13 +28,9 @@ const char *vulkan_result_name(VkResult result)
         {NAMED(VK_ERROR_FEATURE_NOT_PRESENT)},
         {NAMED(VK_ERROR_INCOMPATIBLE_DRIVER)},
         {NAMED(VK_ERROR_TOO_MANY_OBJECTS)},
-        {NAMED(VK_ERROR_OUT_OF_DATE_KHR)},
-        {NAMED(VK_ERROR_SURFACE_LOST_KHR)},
         {NAMED(VK_INCOMPLETE)},
-        {NAMED(VK_ERROR_NATIVE_WINDOW_IN_USE_KHR)},
         {NAMED(VK_NOT_READY)},
         {NAMED(VK_TIMEOUT)},
-        {NAMED(VK_SUBOPTIMAL_KHR)},
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
         if (names[i].result == result)
@@ -78,15 +74,6 @@ static void report_no_device(void)
 static enum status create_instance(struct vulkan_context *context, const struct vulkan_options *options)
 {
     const bool validate = options->validate;
-    const char *extensions[8] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME}; /* which the loader always has */
-    const uint32_t room = sizeof extensions / sizeof *extensions - 1,
-                   more = options->instance_extension_count;
-    if (more > room) {
-        log_error("the window system needs %u Vulkan extensions, room for %u", more, room);
-        return STATUS_UNABLE;
-    }
-    for (uint32_t i = 0; i < more; ++i)
-        extensions[1 + i] = options->instance_extensions[i];
     const VkDebugUtilsMessengerCreateInfoEXT messenger_info = {
         .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
         .messageSeverity =
@@ -114,8 +101,8 @@ static enum status create_instance(struct vulkan_context *context, const struct 
                 },
             .enabledLayerCount = validate ? 1 : 0,
             .ppEnabledLayerNames = (const char *[]){validation_layer},
-            .enabledExtensionCount = 1 + more,
-            .ppEnabledExtensionNames = extensions,
+            .enabledExtensionCount = 1, /* which the loader always has */
+            .ppEnabledExtensionNames = (const char *[]){VK_EXT_DEBUG_UTILS_EXTENSION_NAME},
         },
         NULL, &context->instance);
     if (result == VK_ERROR_LAYER_NOT_PRESENT)
@@ -155,8 +142,7 @@ static struct device_type device_type(const struct vulkan_context *context)
 }
 
 /* Learns what the device is and has. Returns whether it can be used. */
-static bool inspect_device(struct vulkan_context *context, const struct vulkan_options *options,
-                           VkPhysicalDevice device)
+static bool inspect_device(struct vulkan_context *context, VkPhysicalDevice device)
 {
     VkPhysicalDeviceSubgroupProperties subgroup = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES,
@@ -183,8 +169,7 @@ static bool inspect_device(struct vulkan_context *context, const struct vulkan_o
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families);
     context->queue_family = UINT32_MAX;
     for (uint32_t i = count; i-- > 0;) {
-        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) &&
-            (!options->can_present || options->can_present(context->instance, device, i))) {
+        if (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) {
             context->queue_family = i;
             context->timestamp_bits = families[i].timestampValidBits;
         }
@@ -203,12 +188,10 @@ static bool device_matches(const char *choice, uint32_t index, const char *name)
 /* Finds the best device that matches the options. On failure (reported) chosen_device is device_count. */
 static enum status choose_device(struct vulkan_context *context, const struct vulkan_options *options)
 {
-    const char *needed = options->can_present ? " that can show pictures in a window" : "";
     int best_score = 0;
     context->chosen_device = context->device_count;
     for (uint32_t i = 0; i < context->device_count; ++i)
-        if (inspect_device(context, options, context->devices[i]) &&
-            device_type(context).score > best_score &&
+        if (inspect_device(context, context->devices[i]) && device_type(context).score > best_score &&
             device_matches(options->device, i, context->properties.deviceName)) {
             context->chosen_device = i;
             best_score = device_type(context).score;
@@ -216,12 +199,10 @@ static enum status choose_device(struct vulkan_context *context, const struct vu
     if (context->chosen_device < context->device_count)
         return STATUS_DONE;
     if (options->device)
-        log_error("--device %s: no usable device of this number or name%s; 'vkwhitted devices' lists them",
-                  options->device, needed);
+        log_error("--device %s: no usable device of this number or name; 'vkwhitted devices' lists them",
+                  options->device);
     else
-        log_error(
-            "no device offers Vulkan 1.2 and a compute queue%s; 'vkwhitted devices' lists what is there",
-            needed);
+        log_error("no device offers Vulkan 1.2 and a compute queue; 'vkwhitted devices' lists what is there");
     return options->device ? STATUS_REFUSED : STATUS_UNABLE;
 }
 
@@ -245,7 +226,7 @@ error:
 }
 
 /* Opens the device that was inspected last. */
-static enum status open_device(struct vulkan_context *context, const struct vulkan_options *options)
+static enum status open_device(struct vulkan_context *context)
 {
     if (!context->has_subgroup_arithmetic) {
         log_error("%s has no arithmetic over subgroups, which the shader needs",
@@ -263,8 +244,6 @@ static enum status open_device(struct vulkan_context *context, const struct vulk
                             .queueCount = 1,
                             .pQueuePriorities = &(float){1},
                         },
-                    .enabledExtensionCount = options->can_present ? 1 : 0,
-                    .ppEnabledExtensionNames = (const char *[]){VK_KHR_SWAPCHAIN_EXTENSION_NAME},
                     .pEnabledFeatures = &(VkPhysicalDeviceFeatures){.shaderFloat64 = context->has_float64},
                 },
                 NULL, &context->device);
@@ -284,8 +263,8 @@ enum status vulkan_context_create(const struct vulkan_options *options, struct v
         return status;
     status = choose_device(*pointer, options);
     if (status == STATUS_DONE) {
-        inspect_device(*pointer, options, (*pointer)->devices[(*pointer)->chosen_device]);
-        status = open_device(*pointer, options);
+        inspect_device(*pointer, (*pointer)->devices[(*pointer)->chosen_device]);
+        status = open_device(*pointer);
     }
     if (status != STATUS_DONE)
         vulkan_context_destroy(pointer);
@@ -349,10 +328,10 @@ enum status vulkan_print_devices(const struct vulkan_options *options,
         return status;
     const enum status chosen = choose_device(context, options);
     for (uint32_t i = 0; i < context->device_count && status == STATUS_DONE; ++i) {
-        bool usable = inspect_device(context, options, context->devices[i]);
+        bool usable = inspect_device(context, context->devices[i]);
         print_device(context, i, usable);
         if (usable)
-            status = open_device(context, options);
+            status = open_device(context);
         if (usable && status == STATUS_DONE)
             status = print_more(context);
         close_device(context);

@@ -22,7 +22,7 @@ struct arithmetic {
 
 enum { VULKAN_MOST_DEVICES = 64 };
 
-/* An instance and one device with a compute queue, which may also present. */
+/* An instance and one device with a compute queue. */
 struct vulkan_context {
     VkInstance instance;
     VkDebugUtilsMessengerEXT messenger;
@@ -46,12 +46,6 @@ struct vulkan_context {
 struct vulkan_options {
     const char *device; /* number or part of the name of a device; NULL: the best one */
     bool validate;      /* Khronos validation layer, core and synchronisation checks */
-
-    /* What a window system needs to show pictures: extensions of the instance, and whether a queue family can
-     * present; NULL: nothing is shown, and there are no swapchains. */
-    const char *const *instance_extensions;
-    uint32_t instance_extension_count;
-    int (*can_present)(VkInstance, VkPhysicalDevice, uint32_t family);
 };
 
 /* Opens a device. On failure *context is NULL and the reason is reported: STATUS_REFUSED for a device that

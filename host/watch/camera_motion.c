@@ -1,5 +1,7 @@
 #include "watch/camera_motion.h"
 
+#include <string.h>
+
 #include "base/number.h"
 #include "scene/vector.h"
 
@@ -15,13 +17,6 @@ static const double pi = 3.14159265358979323846;
 /* The reader refuses a sine of 1e-6 or less between up and the view. */
 #define LEAST_POLE_DISTANCE (pi / 180)
 #define LEAST_SINE 2e-6
-
-static void store(struct dvec3 v, double out[3])
-{
-    out[0] = v.x;
-    out[1] = v.y;
-    out[2] = v.z;
-}
 
 static struct dvec3 view_offset(const struct scene_camera *camera)
 {
@@ -45,8 +40,8 @@ static bool is_valid(const struct scene_camera *camera)
 static void move_to(struct scene_camera *camera, struct dvec3 position, struct dvec3 look_at)
 {
     struct scene_camera moved = *camera;
-    store(position, moved.position);
-    store(look_at, moved.look_at);
+    memcpy(moved.position, &position, sizeof position); /* three doubles, too */
+    memcpy(moved.look_at, &look_at, sizeof look_at);
     if (is_valid(&moved))
         *camera = moved;
 }
@@ -87,19 +82,16 @@ void camera_zoom(struct scene_camera *camera, double steps)
     move_to(camera, dvec3_add(look_at, dvec3_scale(distance, dvec3_unit(offset))), look_at);
 }
 
-static void print_vector(FILE *stream, const char *key, const double v[3])
-{
-    char x[NUMBER_TEXT], y[NUMBER_TEXT], z[NUMBER_TEXT];
-    fprintf(stream, "%s: [%s, %s, %s], ", key, format_double(v[0], x), format_double(v[1], y),
-            format_double(v[2], z));
-}
-
 void camera_print(FILE *stream, const struct scene_camera *camera)
 {
-    char fov_y[NUMBER_TEXT];
+    static const char *const keys[] = {"position", "look_at", "up"};
+    const double *vectors[] = {camera->position, camera->look_at, camera->up};
+    char number[NUMBER_TEXT];
     fputs("camera: { ", stream);
-    print_vector(stream, "position", camera->position);
-    print_vector(stream, "look_at", camera->look_at);
-    print_vector(stream, "up", camera->up);
-    fprintf(stream, "fov_y: %s }\n", format_double(camera->fov_y_degrees, fov_y));
+    for (int i = 0; i < 3; ++i) {
+        fprintf(stream, "%s: [%s, ", keys[i], format_double(vectors[i][0], number));
+        fprintf(stream, "%s, ", format_double(vectors[i][1], number));
+        fprintf(stream, "%s], ", format_double(vectors[i][2], number));
+    }
+    fprintf(stream, "fov_y: %s }\n", format_double(camera->fov_y_degrees, number));
 }

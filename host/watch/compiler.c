@@ -1,108 +1,53 @@
 #include "watch/compiler.h"
 
 #include <errno.h>
-#include <poll.h>
-#include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/pidfd.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/clock.h"
 #include "base/interrupt.h"
+#include "base/text_file.h"
 
-enum {
-    MOST_CPU_SECONDS = 5, /* it takes 0.2 */
-    MOST_MEMORY_BYTES = 1 << 30,
-    MOST_FILE_BYTES = 1 << 26,
-};
-static const double most_ms = 60000; /* on a machine that is busy otherwise */
-
-/* What glslangValidator writes: files in memory, which it inherits and opens under their numbers. */
+/* What glslangValidator writes: files in memory, which it inherits and opens under their names. */
 enum { LOG, SPIRV, DEPENDENCIES, FILES };
 
-/* Starts the glslangValidator of the build, whose SPIR-V is the build's, or else the one of PATH. Returns
- * what posix_spawn() does. */
-static int spawn(const int files[FILES], char *const *arguments, pid_t *process)
-{
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    posix_spawn_file_actions_init(&actions);
-    for (int i = SPIRV; i < FILES; ++i) /* onto itself: inherited */
-        posix_spawn_file_actions_adddup2(&actions, files[i], files[i]);
-    posix_spawn_file_actions_adddup2(&actions, files[LOG], STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, files[LOG], STDERR_FILENO);
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); /* Ctrl-C is for this program alone */
-    int error = posix_spawn(process, GLSLANG_VALIDATOR, &actions, &attributes, arguments, environ);
-    if (error == ENOENT)
-        error = posix_spawnp(process, "glslangValidator", &actions, &attributes, arguments, environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    return error;
-}
+enum { MOST_FILE_BYTES = 1 << 26 };
 
-/* Waits for its end, which comes soon where it takes too long, and after Ctrl-C. Returns the wait status. */
-static int await(pid_t process)
-{
-    const struct {
-        int resource;
-        rlim_t most;
-    } limits[] = {{RLIMIT_CPU, MOST_CPU_SECONDS},
-                  {RLIMIT_AS, MOST_MEMORY_BYTES},
-                  {RLIMIT_FSIZE, MOST_FILE_BYTES},
-                  {RLIMIT_CORE, 0}};
-    struct pollfd ended = {.fd = pidfd_open(process, 0), .events = POLLIN};
-    double end_ms = clock_ms() + most_ms;
-    int outcome = -1;
-    for (size_t i = 0; i < sizeof limits / sizeof *limits; ++i)
-        prlimit(process, limits[i].resource, &(struct rlimit){limits[i].most, limits[i].most + 1}, NULL);
-    while (ended.fd >= 0 && poll(&ended, 1, 100) <= 0)
-        if (interrupt_requested() || clock_ms() > end_ms)
-            kill(process, SIGKILL);
-    if (ended.fd >= 0)
-        close(ended.fd);
-    while (waitpid(process, &outcome, 0) < 0 && errno == EINTR)
-        ;
-    return outcome;
-}
+/* Starts the glslangValidator of the build, whose SPIR-V is the build's, or else the one of PATH: "$0", the
+ * log, its arguments. It needs 0.2 s, or a minute on a machine that is busy otherwise, and little memory. */
+static const char script[] = "ulimit -S -c 0; ulimit -S -t 5; ulimit -S -v 1048576; ulimit -S -f 131072\n"
+                             "log=$1; shift\n"
+                             "[ -x \"$0\" ] && set -- \"$0\" \"$@\" || set -- glslangValidator \"$@\"\n"
+                             "exec timeout --foreground 60 \"$@\" >\"$log\" 2>&1\n";
 
 /* *outcome gets the wait status. */
-static enum status run(const char *path, const char *const *options, const int files[FILES], int *outcome)
+static enum status run(const char *path, const char *const *options, char names[FILES][32], int *outcome)
 {
-    const char *arguments[16] = {"glslangValidator", "--quiet", "-V", "--target-env", "vulkan1.2"};
-    char spirv[32], dependencies[32];
-    size_t count = 5;
+    enum { CANNOT_RUN = 125 }; /* from there on, of the shell and timeout */
+    const char *arguments[24] = {
+        "sh",           "-c",        script,      GLSLANG_VALIDATOR,   names[LOG], "--quiet",   "-V",
+        "--target-env", "vulkan1.2", "--depfile", names[DEPENDENCIES], "-o",       names[SPIRV]};
+    size_t count = 13;
     pid_t process;
-    snprintf(spirv, sizeof spirv, "/dev/fd/%d", files[SPIRV]);
-    snprintf(dependencies, sizeof dependencies, "/dev/fd/%d", files[DEPENDENCIES]);
     if (SHADER_DEBUG_INFO)
         arguments[count++] = "-g";
     while (*options)
         arguments[count++] = *options++;
-    memcpy(arguments + count, (const char *[]){"--depfile", dependencies, "-o", spirv, path},
-           5 * sizeof *arguments);
-    int error = spawn(files, (char *const *)arguments, &process);
-    if (error == 0)
-        *outcome = await(process);
-    else
-        log_error("cannot start glslangValidator (of the package glslang-tools): %s", strerror(error));
-    return interrupt_requested() ? STATUS_INTERRUPTED : error == 0 ? STATUS_DONE : STATUS_UNABLE;
-}
-
-/* The file's bytes with a 0 behind them, to be freed by the caller; NULL without memory. */
-static void *read_all(int file, size_t *size)
-{
-    off_t end = lseek(file, 0, SEEK_END);
-    char *bytes = calloc(1, (size_t)end + 1);
-    ssize_t got = bytes ? pread(file, bytes, (size_t)end, 0) : 0;
-    *size = got > 0 ? (size_t)got : 0;
-    return bytes;
+    arguments[count] = path;
+    int error = posix_spawn(&process, "/bin/sh", NULL, NULL, (char *const *)arguments, environ);
+    while (error == 0 && waitpid(process, outcome, 0) < 0)
+        error = errno == EINTR ? 0 : errno;
+    if (interrupt_requested())
+        return STATUS_INTERRUPTED;
+    if (error == 0 && (!WIFEXITED(*outcome) || WEXITSTATUS(*outcome) < CANNOT_RUN))
+        return STATUS_DONE;
+    log_error("cannot start glslangValidator (of the package glslang-tools): %s",
+              strerror(error ? error : ENOENT));
+    return STATUS_UNABLE;
 }
 
 /* Takes the paths from what --depfile has written, "output: path path ...", with a \ before a blank in one.
@@ -117,30 +62,36 @@ static void put_dependencies(FILE *files, const char *text)
     }
 }
 
+/* Skips the prefix where the text begins with it. */
+static bool skip(char **text, const char *prefix)
+{
+    size_t length = strlen(prefix);
+    bool has = strncmp(*text, prefix, length) == 0;
+    *text += has ? length : 0;
+    return has;
+}
+
 /* Writes a message as compilers do, without the noise in which glslang wraps it; and the files that it names,
  * a missing one beside the one that includes it. */
-static void put_message(FILE *messages, FILE *files, const char *path, const char *severity, char *message)
+static void put_message(FILE *messages, FILE *files, const char *path, const char *severity, char *text)
 {
-    static const char missing[] = "'#include' : Could not process include directive for header name: ",
-                      unnamed[] = "'' :";
-    char *colon = strchr(message, ':'), *text = message;
+    char *colon = strchr(text, ':');
     while (colon && strspn(colon + 1, "0123456789") == 0)
         colon = strchr(colon + 1, ':');
-    if (colon && (text = strstr(colon + 1, ": "))) {
-        path = message;
-        *colon = *text = 0;
-        fprintf(messages, "%s:%s: %s: ", path, colon + 1, severity);
-        fprintf(files, "%s%c", path, 0);
-        text += 2;
-    } else {
-        text = message;
-        fprintf(messages, "%s: %s: ", path, severity);
+    char *end = colon ? strstr(colon + 1, ": ") : NULL;
+    if (end) {
+        path = text;
+        text = end + 2;
+        *end = 0;
     }
-    if (strncmp(text, unnamed, sizeof unnamed - 1) == 0)
-        text += sizeof unnamed - 1;
-    if (strncmp(text, missing, sizeof missing - 1) == 0) {
+    fprintf(messages, "%s: %s: ", path, severity);
+    if (end) {
+        *colon = 0;
+        fprintf(files, "%s%c", path, 0);
+    }
+    skip(&text, "'' :");
+    if (skip(&text, "'#include' : Could not process include directive for header name: ")) {
         const char *slash = strrchr(path, '/');
-        text += sizeof missing - 1;
         fprintf(messages, "cannot include ");
         fprintf(files, "%.*s%s%c", slash && *text != '/' ? (int)(slash + 1 - path) : 0, path, text, 0);
     }
@@ -153,15 +104,12 @@ static void put_message(FILE *messages, FILE *files, const char *path, const cha
 /* Warnings and the first error: glslang reads no further then, and what else it says is a consequence. */
 static void put_messages(FILE *messages, FILE *files, const char *path, char *log, int outcome)
 {
-    static const char error[] = "ERROR: ", warning[] = "WARNING: ";
     bool failed = false;
     char *rest, *first = strtok_r(log, "\n", &rest);
     for (char *line = first; line && !failed; line = strtok_r(NULL, "\n", &rest)) {
-        failed = strncmp(line, error, sizeof error - 1) == 0;
-        if (failed)
-            put_message(messages, files, path, "error", line + sizeof error - 1);
-        else if (strncmp(line, warning, sizeof warning - 1) == 0)
-            put_message(messages, files, path, "warning", line + sizeof warning - 1);
+        failed = skip(&line, "ERROR: ");
+        if (failed || skip(&line, "WARNING: "))
+            put_message(messages, files, path, failed ? "error" : "warning", line);
     }
     if (WIFSIGNALED(outcome))
         fprintf(messages, "%s: error: glslangValidator ended early: %s\n", path,
@@ -170,28 +118,29 @@ static void put_messages(FILE *messages, FILE *files, const char *path, char *lo
         fprintf(messages, "%s: error: %s\n", path, first ? first : "glslangValidator failed");
 }
 
-static enum status take_result(const char *path, const int files[FILES], int outcome,
+static enum status take_result(const char *path, char names[FILES][32], int outcome,
                                struct compilation *compilation)
 {
     size_t size;
     FILE *messages = open_memstream(&compilation->messages, &size);
-    FILE *paths = open_memstream(&compilation->files, &size);
-    char *log = read_all(files[LOG], &size), *dependencies = read_all(files[DEPENDENCIES], &size);
-    bool compiled = outcome == 0, complete = messages && paths && log && dependencies;
+    FILE *files = open_memstream(&compilation->files, &size);
+    char *log = text_file_read(names[LOG], true, MOST_FILE_BYTES, &size);
+    char *dependencies = text_file_read(names[DEPENDENCIES], true, MOST_FILE_BYTES, &size);
+    bool complete = messages && files && log && dependencies;
     if (complete) {
-        put_messages(messages, paths, path, log, outcome);
-        put_dependencies(paths, dependencies);
-        fputc(0, paths);
-        fputc(0, paths);
+        put_messages(messages, files, path, log, outcome);
+        put_dependencies(files, dependencies);
+        fprintf(files, "%c%c", 0, 0);
     }
     complete = messages && fclose(messages) == 0 && complete;
-    complete = paths && fclose(paths) == 0 && complete;
+    complete = files && fclose(files) == 0 && complete;
     free(log);
     free(dependencies);
-    if (compiled)
-        compilation->words = read_all(files[SPIRV], &compilation->size);
-    if (complete && (!compiled || compilation->size > 0))
-        return compiled ? STATUS_DONE : STATUS_REFUSED;
+    if (complete && outcome != 0)
+        return STATUS_REFUSED;
+    compilation->words = (void *)text_file_read(names[SPIRV], true, MOST_FILE_BYTES, &compilation->size);
+    if (complete && compilation->words && compilation->size > 0)
+        return STATUS_DONE;
     log_error("no memory for a compiled shader");
     return STATUS_UNABLE;
 }
@@ -199,15 +148,18 @@ static enum status take_result(const char *path, const int files[FILES], int out
 enum status shader_compile(const char *path, const char *const *options, struct compilation *compilation)
 {
     int files[FILES], outcome = -1;
+    char names[FILES][32];
     bool created = true;
     *compilation = (struct compilation){0};
-    for (int i = 0; i < FILES; ++i)
-        created = (files[i] = memfd_create("glslangValidator", MFD_CLOEXEC)) >= 0 && created;
+    for (int i = 0; i < FILES; ++i) {
+        created = (files[i] = memfd_create("glslangValidator", 0)) >= 0 && created;
+        snprintf(names[i], sizeof names[i], "/dev/fd/%d", files[i]);
+    }
     if (!created)
         log_error("cannot compile the shader: %s", strerror(errno));
-    enum status status = created ? run(path, options, files, &outcome) : STATUS_UNABLE;
+    enum status status = created ? run(path, options, names, &outcome) : STATUS_UNABLE;
     if (status == STATUS_DONE)
-        status = take_result(path, files, outcome, compilation);
+        status = take_result(path, names, outcome, compilation);
     for (int i = 0; i < FILES; ++i)
         if (files[i] >= 0)
             close(files[i]);

@@ -6,20 +6,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
 
 #include "base/clock.h"
 #include "base/interrupt.h"
-#include "watch/swapchain.h"
 
-/* Of one key press: picture heights, zoom steps. */
-static const double arrow_step = 1.0 / 32, zoom_key_step = 1;
+static const double arrow_step = 1.0 / 32; /* of one key press, in picture heights */
 
 struct display {
     GLFWwindow *window;
-    struct swapchain *swapchain;
-    VkExtent2D picture;          /* its size; 0 before the first */
+    struct extent picture;       /* its size; 0 before the first */
+    unsigned char *rgba;         /* the picture */
     bool stale;                  /* the window does not show the picture as it should */
     bool dragging, panning;      /* the left button is down; Shift was, when it went down */
     double pointer_x, pointer_y; /* where it was last */
@@ -37,12 +34,31 @@ static void drag(struct display *display, bool pan, double x, double y)
     *(pan ? &input->pan_y : &input->orbit_y) += y;
 }
 
+/* a b / c, rounded to nearest, at least 1. */
+static unsigned scale(unsigned a, unsigned b, unsigned c)
+{
+    unsigned scaled = (unsigned)(((uint64_t)a * b + c / 2) / c);
+    return scaled > 0 ? scaled : 1;
+}
+
+struct area fit_picture(struct extent picture, struct extent window)
+{
+    struct extent fit = window;
+    if (window.width == 0 || window.height == 0)
+        return (struct area){0};
+    if ((uint64_t)window.width * picture.height <= (uint64_t)window.height * picture.width)
+        fit.height = scale(picture.height, window.width, picture.width);
+    else
+        fit.width = scale(picture.width, window.height, picture.height);
+    return (struct area){(window.width - fit.width) / 2, (window.height - fit.height) / 2, fit.width,
+                         fit.height};
+}
+
 static void on_framebuffer_size(GLFWwindow *window, int width, int height)
 {
-    struct display *display = glfwGetWindowUserPointer(window);
     (void)width;
     (void)height;
-    display->stale = true;
+    ((struct display *)glfwGetWindowUserPointer(window))->stale = true;
 }
 
 static void on_refresh(GLFWwindow *window)
@@ -66,7 +82,7 @@ static void on_pointer(GLFWwindow *window, double x, double y)
     glfwGetWindowSize(window, &width, &height);
     if (display->dragging && display->picture.width > 0 && width > 0 && height > 0) {
         unsigned shown_height =
-            fit_picture(display->picture, (VkExtent2D){(uint32_t)width, (uint32_t)height}).extent.height;
+            fit_picture(display->picture, (struct extent){(unsigned)width, (unsigned)height}).height;
         drag(display, display->panning, (x - display->pointer_x) / shown_height,
              (y - display->pointer_y) / shown_height);
     }
@@ -105,7 +121,7 @@ static void on_key(GLFWwindow *window, int key, int scancode, int action, int mo
     if (code == GLFW_KEY_UP || code == GLFW_KEY_DOWN)
         drag(display, pan, 0, code == GLFW_KEY_UP ? -arrow_step : arrow_step);
     if (code == '-' || code == '+' || code == '=') /* + with Shift on many keyboards */
-        input->zoom += code == '-' ? -zoom_key_step : zoom_key_step;
+        input->zoom += code == '-' ? -1 : 1;
     if (code == GLFW_KEY_ESCAPE)
         glfwSetWindowShouldClose(window, GLFW_TRUE);
     input->reset |= code == 'r';
@@ -120,30 +136,14 @@ static const char *glfw_reason(void)
     return glfwGetError(&reason) == GLFW_NO_ERROR ? "GLFW has no reason" : reason;
 }
 
-/* Whether the family of queues can scale a picture and show it. */
-static int can_present(VkInstance instance, VkPhysicalDevice device, uint32_t family)
-{
-    VkQueueFamilyProperties families[16];
-    uint32_t count = sizeof families / sizeof *families;
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families);
-    return family < count && (families[family].queueFlags & VK_QUEUE_GRAPHICS_BIT) &&
-           glfwGetPhysicalDevicePresentationSupport(instance, device, family);
-}
-
-enum status display_connect(struct vulkan_options *vulkan)
+enum status display_connect(void)
 {
     if (!glfwInit()) {
         log_error("cannot open a window: %s", glfw_reason());
         return STATUS_UNABLE;
     }
     signal(SIGPIPE, SIG_IGN); /* it would keep Xlib from saying that the display has gone away */
-    vulkan->instance_extensions = glfwGetRequiredInstanceExtensions(&vulkan->instance_extension_count);
-    vulkan->can_present = can_present;
-    if (vulkan->instance_extensions)
-        return STATUS_DONE;
-    log_error("no Vulkan driver here can show pictures in a window");
-    glfwTerminate();
-    return STATUS_UNABLE;
+    return STATUS_DONE;
 }
 
 void display_disconnect(void)
@@ -151,18 +151,19 @@ void display_disconnect(void)
     glfwTerminate();
 }
 
-static enum status create_window(struct display *display, unsigned width, unsigned height)
+enum status display_create(unsigned width, unsigned height, struct display **pointer)
 {
     const unsigned most = 16384; /* X11's sizes have 16 bits with sign */
-    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-    glfwWindowHintString(GLFW_X11_CLASS_NAME, "vkwhitted");
-    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "vkwhitted");
-    display->window = glfwCreateWindow((int)(width < most ? width : most),
-                                       (int)(height < most ? height : most), "vkwhitted", NULL, NULL);
-    if (!display->window) {
-        log_error("cannot open a window: %s", glfw_reason());
+    struct display *display = *pointer = calloc(1, sizeof *display);
+    if (display)
+        display->window = glfwCreateWindow((int)(width < most ? width : most),
+                                           (int)(height < most ? height : most), "vkwhitted", NULL, NULL);
+    if (!display || !display->window) {
+        log_error("cannot open a window: %s", display ? glfw_reason() : "no memory");
+        display_destroy(pointer);
         return STATUS_UNABLE;
     }
+    glfwMakeContextCurrent(display->window);
     glfwSetWindowUserPointer(display->window, display);
     glfwSetFramebufferSizeCallback(display->window, on_framebuffer_size);
     glfwSetWindowRefreshCallback(display->window, on_refresh);
@@ -173,48 +174,63 @@ static enum status create_window(struct display *display, unsigned width, unsign
     return STATUS_DONE;
 }
 
-enum status display_create(struct vulkan_context *context, unsigned width, unsigned height,
-                           struct display **pointer)
-{
-    struct display *display = *pointer = calloc(1, sizeof *display);
-    if (!display) {
-        log_error("no memory for the window");
-        return STATUS_UNABLE;
-    }
-    enum status status = create_window(display, width, height);
-    if (status == STATUS_DONE)
-        status = swapchain_create(context, display->window, &display->swapchain);
-    if (status != STATUS_DONE)
-        display_destroy(pointer);
-    return status;
-}
-
 void display_destroy(struct display **pointer)
 {
     struct display *display = *pointer;
     *pointer = NULL;
     if (!display)
         return;
-    swapchain_destroy(&display->swapchain);
-    if (display->window)
-        glfwDestroyWindow(display->window);
+    glfwDestroyWindow(display->window);
+    free(display->rgba);
     free(display);
 }
 
 unsigned char *display_picture(struct display *display, unsigned width, unsigned height)
 {
-    unsigned char *rgba = swapchain_picture(display->swapchain, width, height);
-    display->picture = rgba ? (VkExtent2D){width, height} : (VkExtent2D){0};
+    GLint most;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    free(display->rgba);
+    display->rgba = NULL;
+    if (width > (unsigned)most || height > (unsigned)most)
+        log_error("a window shows pictures of up to %dx%d pixels, not %ux%u", most, most, width, height);
+    else if (!(display->rgba = malloc((size_t)width * height * 4)))
+        log_error("no memory for the picture in the window");
+    display->picture = display->rgba ? (struct extent){width, height} : (struct extent){0};
     display->stale = true;
-    return rgba;
+    return display->rgba;
 }
 
 enum status display_paint(struct display *display)
 {
-    bool shown;
-    enum status status = swapchain_show(display->swapchain, &shown);
-    display->stale = !shown;
-    return status;
+    static const float corners[] = {
+        /* s t, x y z */ 0, 0, -1, 1, 0, 1, 0, 1, 1, 0, 1, 1, 1, -1, 0, 0, 1, -1, -1, 0};
+    const struct extent picture = display->picture;
+    int width, height;
+    if (picture.width == 0)
+        return STATUS_DONE;
+    glfwGetFramebufferSize(display->window, &width, &height);
+    const struct area fit = fit_picture(picture, (struct extent){(unsigned)width, (unsigned)height});
+    int filter = fit.width >= picture.width && fit.height >= picture.height ? GL_NEAREST : GL_LINEAR;
+    display->stale = fit.width == 0;
+    if (display->stale)
+        return STATUS_DONE;
+    glClear(GL_COLOR_BUFFER_BIT);
+    glViewport((int)fit.x, height - (int)(fit.y + fit.height), (int)fit.width, (int)fit.height);
+    glEnable(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, (int)picture.width, (int)picture.height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, display->rgba);
+    glInterleavedArrays(GL_T2F_V3F, 0, corners);
+    glDrawArrays(GL_QUADS, 0, 4);
+    glfwSwapBuffers(display->window);
+    GLenum error = glGetError();
+    if (error == GL_NO_ERROR)
+        return STATUS_DONE;
+    log_error("showing a picture: OpenGL error 0x%x", error);
+    return STATUS_UNABLE;
 }
 
 enum status display_wait(struct display *display, double seconds, struct display_input *input)

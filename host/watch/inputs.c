@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <fnmatch.h>
 #include <fts.h>
 #include <limits.h>
 #include <math.h>
@@ -23,8 +24,6 @@ static const double closed_ms = 20, unknown_ms = 200, open_ms = 1000;
 /* How old a change must be for the next one to get another time: most file systems count in 10 ms or less,
  * some in 2 s. */
 static const double fine_ms = 20, coarse_ms = 2000;
-
-static const double recent_ms = 2000; /* older changes have been settled already */
 
 enum { MOST_FOLDERS_DEEP = 3, MOST_SCENE_BYTES = 16 << 20 /* as scene_read() */ };
 
@@ -52,14 +51,10 @@ static uint64_t hash(uint64_t so_far, const void *bytes, size_t size)
 static double settling_time(const char *path)
 {
     int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    double time_ms = unknown_ms;
-    if (file < 0)
-        return time_ms;
-    if (fcntl(file, F_SETLEASE, F_RDLCK) == 0)
-        time_ms = closed_ms;
-    else if (errno == EAGAIN)
-        time_ms = open_ms;
-    close(file); /* and the lease ends */
+    bool closed = file >= 0 && fcntl(file, F_SETLEASE, F_RDLCK) == 0;
+    double time_ms = closed ? closed_ms : file >= 0 && errno == EAGAIN ? open_ms : unknown_ms;
+    if (file >= 0)
+        close(file); /* and the lease ends */
     return time_ms;
 }
 
@@ -72,33 +67,28 @@ static uint64_t look_at(struct look *look, const char *path)
         look->settling_ms = fmax(look->settling_ms, unknown_ms);
         return number;
     }
-    const int64_t facts[] = {(int64_t)about.st_dev,          (int64_t)about.st_ino,
-                             (int64_t)about.st_size,         (int64_t)about.st_mtim.tv_sec,
-                             (int64_t)about.st_mtim.tv_nsec, (int64_t)about.st_ctim.tv_sec,
-                             (int64_t)about.st_ctim.tv_nsec};
+    const int64_t facts[] = {(int64_t)about.st_dev, (int64_t)about.st_ino, (int64_t)about.st_size,
+                             (int64_t)about.st_ctim.tv_sec, (int64_t)about.st_ctim.tv_nsec};
     if (milliseconds_between(look->newest, about.st_ctim) > 0)
         look->newest = about.st_ctim;
-    if (milliseconds_between(about.st_ctim, look->now) < recent_ms)
+    if (milliseconds_between(about.st_ctim, look->now) < coarse_ms) /* settled already, if older */
         look->settling_ms = fmax(look->settling_ms, settling_time(path));
     return hash(number, facts, sizeof facts);
 }
 
-static bool is_shader_part(const FTSENT *entry)
+/* All that may be part of a shader, but for what is hidden. */
+static uint64_t look_at_folder(struct look *look, const char *shader_path)
 {
-    const char *suffix = strrchr(entry->fts_name, '.');
-    return entry->fts_info == FTS_F && suffix &&
-           (strcmp(suffix, ".comp") == 0 || strcmp(suffix, ".glsl") == 0 || strcmp(suffix, ".h") == 0);
-}
-
-static uint64_t look_at_folder(struct look *look, char *folder)
-{
+    char folder[PATH_MAX];
+    snprintf(folder, sizeof folder, "%.*s", (int)(strrchr(shader_path, '/') - shader_path), shader_path);
     uint64_t sum = 0; /* so that their order is all the same */
     FTS *tree = fts_open((char *const[]){folder, NULL}, FTS_LOGICAL | FTS_NOCHDIR, NULL);
     for (FTSENT *entry; tree && (entry = fts_read(tree));) {
         bool hidden = entry->fts_level > 0 && entry->fts_name[0] == '.';
         if (entry->fts_info == FTS_D && (hidden || entry->fts_level > MOST_FOLDERS_DEEP))
             fts_set(tree, entry, FTS_SKIP);
-        else if (!hidden && is_shader_part(entry))
+        else if (entry->fts_info == FTS_F && !hidden &&
+                 fnmatch("*.@(comp|glsl|h)", entry->fts_name, FNM_EXTMATCH) == 0)
             sum += look_at(look, entry->fts_path);
     }
     if (tree)
@@ -111,7 +101,7 @@ static struct look look(const struct inputs *inputs)
     struct look look = {.settling_ms = closed_ms};
     clock_gettime(CLOCK_REALTIME, &look.now);
     look.state.scene = look_at(&look, inputs->scene_path);
-    look.state.shader = inputs->shader_broken ? look_at_folder(&look, inputs->shader_folder) : 0;
+    look.state.shader = inputs->shader_broken ? look_at_folder(&look, inputs->shader_path) : 0;
     for (const char *path = inputs->shader_files; path && *path; path += strlen(path) + 1)
         look.state.shader += look_at(&look, path);
     return look;
@@ -127,8 +117,8 @@ bool inputs_take(struct inputs *inputs, double *saved_ms)
     const struct look found = look(inputs);
     double now_ms = clock_ms(), age_ms = milliseconds_between(found.newest, found.now);
     if (!same_state(found.state, inputs->seen)) {
-        /* where no file is newer than the last look, one has gone, or a link leads elsewhere */
-        inputs->saved_ms = now_ms - age_ms > inputs->last_look_ms ? now_ms - fmax(age_ms, 0) : now_ms;
+        /* since the last look, though no file is newer where one has gone or a link leads elsewhere */
+        inputs->saved_ms = fmin(fmax(now_ms - age_ms, inputs->last_look_ms), now_ms);
         inputs->seen = found.state;
         inputs->unchanged_since_ms = now_ms;
     }
@@ -172,47 +162,40 @@ char *inputs_read_scene(const struct inputs *inputs, size_t *length)
     return text;
 }
 
-/* The folder that was installed with the program; false where that is not known, or is not there. */
-static bool find_installed(char path[PATH_MAX])
+/* The folder that was installed with the program, or where that is not known or not there, the source's. */
+static void find_shaders(char folder[PATH_MAX])
 {
     char program[PATH_MAX], beside[2 * PATH_MAX];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     program[length > 0 ? length : 0] = 0;
-    char *slash = strrchr(program, '/');
+    const char *slash = strrchr(program, '/');
     snprintf(beside, sizeof beside, "%.*s/" SHADERS_FROM_BIN, slash ? (int)(slash - program) : 0, program);
-    return slash && realpath(beside, path);
+    if (!slash || !realpath(beside, folder))
+        strcpy(folder, SHADERS_OF_SOURCE);
 }
 
 enum status inputs_create(const char *scene_path, const char *shader_folder, struct inputs *inputs)
 {
-    char installed[PATH_MAX];
+    char found[PATH_MAX];
+    *inputs = (struct inputs){.scene_path = scene_path, .shader_broken = true, .last_look_ms = INFINITY};
     if (!shader_folder)
-        shader_folder = find_installed(installed) ? installed : SHADERS_OF_SOURCE;
-    *inputs = (struct inputs){.scene_path = scene_path, .shader_broken = true, .last_look_ms = clock_ms()};
-    inputs->shader_folder = strdup(shader_folder);
-    if (!inputs->shader_folder || asprintf(&inputs->shader_path, "%s/whitted.comp", shader_folder) < 0) {
-        inputs->shader_path = NULL;
-        log_error("no memory for a path");
-        inputs_destroy(inputs);
-        return STATUS_UNABLE;
-    }
+        find_shaders(found);
+    int length = snprintf(inputs->shader_path, sizeof inputs->shader_path, "%s/whitted.comp",
+                          shader_folder ? shader_folder : found);
     signal(SIGIO, SIG_IGN); /* comes where somebody opens a file for writing while we hold a lease */
-    size_t length;
-    char *scene = inputs_read_scene(inputs, &length);
-    bool found = scene && access(inputs->shader_path, R_OK) == 0;
-    if (scene && !found)
+    size_t scene_length;
+    char *scene = inputs_read_scene(inputs, &scene_length);
+    errno = ENAMETOOLONG;
+    bool good =
+        scene && (size_t)length < sizeof inputs->shader_path && access(inputs->shader_path, R_OK) == 0;
+    if (scene && !good)
         log_error("%s: %s; --shaders names the folder of whitted.comp", inputs->shader_path, strerror(errno));
     free(scene);
-    if (found)
-        return STATUS_DONE;
-    inputs_destroy(inputs);
-    return STATUS_REFUSED;
+    return good ? STATUS_DONE : STATUS_REFUSED;
 }
 
 void inputs_destroy(struct inputs *inputs)
 {
-    free(inputs->shader_folder);
-    free(inputs->shader_path);
     free(inputs->shader_files);
     *inputs = (struct inputs){0};
 }

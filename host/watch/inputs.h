@@ -1,6 +1,7 @@
 #ifndef VKWHITTED_WATCH_INPUTS_H
 #define VKWHITTED_WATCH_INPUTS_H
 
+#include <limits.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -16,7 +17,7 @@ struct inputs_state {
  * it. */
 struct inputs {
     const char *scene_path; /* the caller's */
-    char *shader_folder, *shader_path;
+    char shader_path[PATH_MAX];
     char *shader_files; /* as struct compilation has them; NULL: not compiled yet */
     bool shader_broken;
     struct inputs_state taken, seen; /* when they were read last; when they were last looked at */

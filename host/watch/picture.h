@@ -1,25 +1,26 @@
 #ifndef VKWHITTED_WATCH_PICTURE_H
 #define VKWHITTED_WATCH_PICTURE_H
 
-#include <stdatomic.h>
-
 #include "tracer/job.h"
 
-/* A scene and the picture of it, shared between threads that only read it. */
+/* A scene and the picture of it. */
 struct picture {
     struct job job;
     struct image image; /* empty before it has been rendered */
-    unsigned number;    /* the first is 1; 0 before it has been rendered */
+    unsigned number;    /* the first is 1; 0: not a good one, or a preview */
     double dispatch_ms;
-    atomic_ullong rays; /* as the reference has counted them; 0: not yet */
-    atomic_uint users;
+
+    unsigned band;     /* rows to be compared with the reference next; 0: no more */
+    unsigned compared; /* rows */
+    size_t differing;  /* pixels of these */
+    uint64_t rays;     /* of these */
+    double since_ms;   /* when the comparison began */
 };
 
-/* With one user; NULL (reported) without memory. */
-struct picture *picture_create(void);
-struct picture *picture_share(struct picture *picture);
+void picture_destroy(struct picture *picture);
 
-/* Sets *picture to NULL; frees the picture with its last user. */
-void picture_release(struct picture **picture);
+/* Compares the next rows with the reference, for about 10 ms if one does not take longer; after the last one
+ * says how many pixels differ, if talkative. */
+void picture_compare(struct picture *picture, bool talkative);
 
 #endif

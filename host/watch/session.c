@@ -1,6 +1,5 @@
 #include "watch/session.h"
 
-#include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,8 +37,6 @@ static struct job_options reduced_options(const struct job_options *options, con
                                           unsigned reduction)
 {
     struct job_options reduced = *options;
-    if (reduction == 1)
-        return reduced;
     reduced.width = ((options->width ? options->width : scene->width) + reduction - 1) / reduction;
     reduced.height = ((options->height ? options->height : scene->height) + reduction - 1) / reduction;
     reduced.crop.x /= reduction;
@@ -49,15 +46,23 @@ static struct job_options reduced_options(const struct job_options *options, con
     return reduced;
 }
 
-static void place_camera(struct session *session, struct scene *scene)
+/* Destroys a picture that nothing needs any more. */
+static void release(const struct session *session, struct picture *picture)
 {
-    if (!session->has_camera || memcmp(&session->file_camera, &scene->camera, sizeof scene->camera) != 0)
-        session->file_camera = session->camera = scene->camera;
-    session->has_camera = true;
-    scene->camera = session->camera;
+    if (picture && picture != session->shown && picture != session->traced)
+        picture_destroy(picture);
 }
 
-/* The picture to be rendered of the scene, which is refused (reported) where it is NULL. */
+/* Puts the picture, or NULL, in the place of another one. */
+static void replace(const struct session *session, struct picture **place, struct picture *picture)
+{
+    struct picture *old = *place;
+    *place = picture;
+    release(session, old);
+}
+
+/* The picture to be rendered of the scene, to be released by the caller; NULL (reported) where the scene is
+ * refused. */
 static struct picture *prepare(struct session *session, unsigned reduction)
 {
     struct scene scene;
@@ -67,12 +72,18 @@ static struct picture *prepare(struct session *session, unsigned reduction)
     if (session->scene_changed)
         scene_warn(&scene);
     session->scene_changed = false;
-    place_camera(session, &scene);
+    if (memcmp(&session->file_camera, &scene.camera, sizeof scene.camera) != 0)
+        session->file_camera = session->camera = scene.camera;
+    scene.camera = session->camera;
     const struct job_options options = reduced_options(&session->options->job, &scene, reduction);
-    struct picture *picture = picture_create();
-    if (picture && job_create_from(&options, &scene, &picture->job) != STATUS_DONE)
-        picture_release(&picture);
-    scene_destroy(&scene); /* empty, unless there was no memory for the picture */
+    struct picture *picture = calloc(1, sizeof *picture);
+    if (!picture) {
+        log_error("no memory for a picture");
+        scene_destroy(&scene);
+    } else if (job_create_from(&options, &scene, &picture->job) != STATUS_DONE) {
+        picture_destroy(picture);
+        picture = NULL;
+    }
     return picture;
 }
 
@@ -84,50 +95,40 @@ static struct tracer_options tracer_options(const struct session *session)
                                    .code = {session->code, session->code_size}};
 }
 
-static void drop_tracer(struct session *session)
-{
-    tracer_destroy(&session->tracer);
-    picture_release(&session->traced);
-}
-
-/* Whether the tracer can run the shader; puts the reason into the messages if not. */
-static enum status check_interface(const struct session *session, struct compilation *compilation)
-{
-    char problem[128];
-    if (tracer_provides((struct spirv){compilation->words, compilation->size}, session->choice, problem))
-        return STATUS_DONE;
-    free(compilation->messages);
-    if (asprintf(&compilation->messages, "%s: error: %s\n", session->inputs.shader_path, problem) >= 0)
-        return STATUS_REFUSED;
-    compilation->messages = NULL;
-    log_error("no memory for a message");
-    return STATUS_UNABLE;
-}
-
 /* Compiles the shader as the choice wants it. STATUS_DIFFERS where its files have changed meanwhile: what
  * came of it does not count. */
 static enum status compile_anew(struct session *session)
 {
+    struct inputs *inputs = &session->inputs;
     struct compilation compilation;
     const struct shader_choice choice = session->choice;
+    char problem[128];
     enum status status = shader_compile(
-        session->inputs.shader_path, whitted_defines(choice.variant, choice.scene_in_storage), &compilation);
-    if (status == STATUS_DONE)
-        status = check_interface(session, &compilation);
+        inputs->shader_path, whitted_defines(choice.variant, choice.scene_in_storage), &compilation);
+    if (status == STATUS_DONE &&
+        !tracer_provides((struct spirv){compilation.words, compilation.size}, choice, problem)) {
+        free(compilation.messages);
+        status = STATUS_REFUSED;
+        if (asprintf(&compilation.messages, "%s: error: %s\n", inputs->shader_path, problem) < 0) {
+            compilation.messages = NULL;
+            log_error("no memory for a message");
+            status = STATUS_UNABLE;
+        }
+    }
     if ((status == STATUS_DONE || status == STATUS_REFUSED) &&
-        !inputs_follow(&session->inputs, &compilation.files, status == STATUS_REFUSED))
+        !inputs_follow(inputs, &compilation.files, status == STATUS_REFUSED))
         status = STATUS_DIFFERS;
+    free(session->messages);
+    session->messages = compilation.messages;
+    compilation.messages = NULL;
     if (status == STATUS_DONE && (!session->code || session->code_size != compilation.size ||
                                   memcmp(session->code, compilation.words, compilation.size) != 0)) {
-        drop_tracer(session);
+        tracer_destroy(&session->tracer);
         free(session->code);
         session->code = compilation.words;
         session->code_size = compilation.size;
         compilation.words = NULL;
     }
-    free(session->messages);
-    session->messages = compilation.messages;
-    compilation.messages = NULL;
     compilation_destroy(&compilation);
     return status;
 }
@@ -138,60 +139,50 @@ static enum status compile(struct session *session, const struct picture *pictur
 {
     const struct tracer_options options = tracer_options(session);
     const struct shader_choice choice = tracer_shader(session->context, &picture->job.packed, &options);
-    *compile_ms = 0;
-    if (session->compiled_state != session->inputs.taken.shader ||
-        choice.variant != session->choice.variant ||
-        choice.scene_in_storage != session->choice.scene_in_storage) {
-        double start = clock_ms();
+    bool compiled = session->compiled_state == session->inputs.taken.shader &&
+                    choice.variant == session->choice.variant &&
+                    choice.scene_in_storage == session->choice.scene_in_storage;
+    double start = clock_ms();
+    if (!compiled) {
         session->choice = choice;
         session->compiled = compile_anew(session);
         bool known = session->compiled == STATUS_DONE || session->compiled == STATUS_REFUSED;
         session->compiled_state = known ? session->inputs.taken.shader : 0;
-        *compile_ms = clock_ms() - start;
     }
-    bool wanted =
-        session->compiled == STATUS_REFUSED || (session->compiled == STATUS_DONE && *compile_ms > 0);
-    if (wanted)
+    *compile_ms = compiled ? 0 : clock_ms() - start;
+    if (session->compiled == STATUS_REFUSED || (session->compiled == STATUS_DONE && !compiled))
         fputs(session->messages, stderr);
     return session->compiled;
 }
 
-static enum status build_tracer(struct session *session, struct picture *picture)
+static enum status render_once_by(void *tracer, const struct render_plan *plan, struct image *image,
+                                  struct progress *progress, double *milliseconds)
 {
-    const struct tracer_options options = tracer_options(session);
-    drop_tracer(session);
-    enum status status = tracer_create(session->context, &picture->job.packed, &options, &session->tracer);
-    malloc_trim(0); /* a driver's compiler needs much memory for a moment */
-    return status;
+    return tracer_render(tracer, plan->window, image, progress, milliseconds);
 }
 
 /* Gives the picture its image. *pipeline_ms is the time that a new pipeline took to build, and 0 where the
  * one there was fits. After a failure the next picture gets a new one, whatever state this one is in. */
 static enum status render(struct session *session, struct picture *picture, double *pipeline_ms)
 {
-    const struct render_plan *plan = &picture->job.plan;
-    struct progress progress;
+    struct rendering rendering = {0};
     double start = clock_ms();
     enum status status = STATUS_DONE;
     *pipeline_ms = 0;
     if (!session->tracer || !tracer_update(session->tracer, &picture->job.packed)) {
-        status = build_tracer(session, picture);
+        const struct tracer_options options = tracer_options(session);
+        tracer_destroy(&session->tracer);
+        status = tracer_create(session->context, &picture->job.packed, &options, &session->tracer);
         *pipeline_ms = clock_ms() - start;
     }
     if (status != STATUS_DONE)
         return status;
-    picture_release(&session->traced);
-    session->traced = picture_share(picture);
-    status = image_create(plan->window.width, plan->window.height, &picture->image);
-    if (status == STATUS_DONE && plan->precision == PRECISION_DOUBLE)
-        status = image_widen(&picture->image);
-    progress_start(&progress, "rendering", (uint64_t)plan->window.width * plan->window.height, plan->quiet);
-    if (status == STATUS_DONE)
-        status =
-            tracer_render(session->tracer, plan->window, &picture->image, &progress, &picture->dispatch_ms);
-    progress_end(&progress);
+    replace(session, &session->traced, picture);
+    status = render_repeatedly(render_once_by, session->tracer, &picture->job.plan, &rendering);
+    picture->image = rendering.image;
+    picture->dispatch_ms = rendering.dispatch_ms;
     if (status != STATUS_DONE)
-        drop_tracer(session);
+        tracer_destroy(&session->tracer);
     else if (session->options->window)
         status = session_show(session, &picture->image);
     return status;
@@ -201,7 +192,7 @@ enum status session_show(struct session *session, const struct image *image)
 {
     enum status status = STATUS_DONE;
     if (!session->display)
-        status = display_create(session->context, image->width, image->height, &session->display);
+        status = display_create(image->width, image->height, &session->display);
     uint8_t *rgba =
         status == STATUS_DONE ? display_picture(session->display, image->width, image->height) : NULL;
     if (!rgba)
@@ -212,42 +203,42 @@ enum status session_show(struct session *session, const struct image *image)
         else
             linear_encode(image->rgb + 3 * i, 3, rgba + 4 * i);
     }
+    session->shows_difference = false;
     return display_paint(session->display);
 }
 
 void session_render(struct session *session, double saved_ms)
 {
-    double compile_ms, pipeline_ms = 0;
+    const struct watch_options *options = session->options;
+    const char *what = "scene refused", *details = "see the terminal";
+    double compile_ms = 0, pipeline_ms = 0;
     struct picture *picture = prepare(session, 1);
-    if (!picture) {
-        tell_failure(session, "scene refused", "see the terminal", 0);
-        return;
+    enum status status = STATUS_REFUSED;
+    if (picture) {
+        what = "compile failed";
+        status = compile(session, picture, &compile_ms);
+        if (status == STATUS_REFUSED)
+            details = session->messages;
     }
-    const char *what = "compile failed", *details = "see the terminal";
-    enum status status = compile(session, picture, &compile_ms);
-    if (status == STATUS_REFUSED)
-        details = session->messages;
     if (status == STATUS_DONE) {
         what = "rendering failed";
         compile_ms = 0;
         status = render(session, picture, &pipeline_ms);
-        if (status == STATUS_DONE)
-            status = job_write(&picture->job, &picture->image, session->options->outputs,
-                               session->options->output_count, session->options->transfer,
-                               session->context->properties.deviceName);
     }
+    if (status == STATUS_DONE)
+        status = job_write(&picture->job, &picture->image, options->outputs, options->output_count,
+                           options->transfer, session->context->properties.deviceName);
     if (status == STATUS_DONE) {
         picture->number = session->shown ? session->shown->number + 1 : 1;
-        picture_release(&session->shown);
-        session->shown = picture_share(picture);
+        replace(session, &session->shown, picture);
         session->failure[0] = 0;
         tell_success(picture, pipeline_ms, saved_ms);
-        if (session->check)
-            background_check_submit(session->check, picture);
+        picture->band = options->check || options->window ? 1 : 0;
+        picture->since_ms = clock_ms();
     } else if (status == STATUS_REFUSED || status == STATUS_UNABLE) {
         tell_failure(session, what, details, compile_ms);
     }
-    picture_release(&picture);
+    release(session, picture);
 }
 
 void session_take(struct session *session, double saved_ms)
@@ -268,19 +259,18 @@ void session_take(struct session *session, double saved_ms)
 void session_preview(struct session *session, unsigned reduction)
 {
     double pipeline_ms, start = clock_ms();
-    bool good = session->shown && !session->failure[0];
-    struct picture *picture = good ? prepare(session, reduction) : NULL;
+    struct picture *picture = session->failure[0] ? NULL : prepare(session, reduction);
     if (picture && render(session, picture, &pipeline_ms) == STATUS_DONE)
         log_info("moving: every %u pixels in %.1f ms", reduction, clock_ms() - start);
-    picture_release(&picture);
+    release(session, picture);
 }
 
 enum status session_destroy(struct session *session)
 {
-    background_check_destroy(&session->check);
     display_destroy(&session->display);
-    drop_tracer(session);
-    picture_release(&session->shown);
+    tracer_destroy(&session->tracer);
+    replace(session, &session->traced, NULL);
+    replace(session, &session->shown, NULL);
     inputs_destroy(&session->inputs);
     free(session->code);
     free(session->messages);

@@ -2,10 +2,10 @@
 #define VKWHITTED_WATCH_SESSION_H
 
 #include "image/srgb.h"
-#include "watch/background_check.h"
 #include "watch/compiler.h"
 #include "watch/display.h"
 #include "watch/inputs.h"
+#include "watch/picture.h"
 
 struct watch_options {
     const char *scene;          /* path */
@@ -24,13 +24,13 @@ struct session {
     const struct watch_options *options;
     struct inputs inputs;
     struct vulkan_context *context;
-    struct background_check *check; /* NULL: nothing is compared or counted */
 
     char *scene_text; /* as taken from the file; NULL: it cannot be read */
     size_t scene_length;
-    bool scene_changed; /* and has not been warned of */
-    bool has_camera;
+    bool scene_changed;                      /* and has not been warned of */
     struct scene_camera file_camera, camera; /* the camera counts until the file says another one */
+    bool moving;                             /* the camera, so that the window shows a preview */
+    double last_motion_ms;
 
     enum status compiled;    /* what came of compiling the shader */
     uint64_t compiled_state; /* of its files then (see struct inputs_state); 0: not compiled yet */
@@ -38,12 +38,14 @@ struct session {
     char *messages;
     uint32_t *code; /* of the shader that compiled last, which the tracer uses */
     size_t code_size;
-    struct tracer *tracer;  /* NULL: to be built */
-    struct picture *traced; /* whose scene the tracer holds */
+    struct tracer *tracer; /* NULL: to be built */
 
     struct picture *shown;   /* the last good picture; NULL: none yet */
-    char failure[256];       /* why that is not what the files say; empty: it is */
+    struct picture *traced;  /* whose scene the tracer holds; may be the same */
+    char failure[256];       /* why the shown one is not what the files say; empty: it is */
     struct display *display; /* NULL: none, or not open yet */
+    bool shows_difference;   /* between it and the reference, in the window */
+    size_t differing;        /* pixels, while it does */
     struct srgb_encoder encoder;
 };
 
@@ -54,7 +56,8 @@ void session_take(struct session *session, double saved_ms);
 /* The same with the files taken before, for another camera. */
 void session_render(struct session *session, double saved_ms);
 
-/* Shows the picture from the camera as it is now, every so many pixels; only while the files are good. */
+/* Shows the picture from the camera as it is now, every so many pixels; only while the files are good. There
+ * is a picture already. */
 void session_preview(struct session *session, unsigned reduction);
 
 /* Shows it in the window, which is opened if there is none yet. */
