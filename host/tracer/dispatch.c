@@ -131,9 +131,7 @@ enum status dispatcher_run(struct dispatcher *dispatcher, const struct portion *
                 .size = (VkDeviceSize)portion->tile_width * portion->tile_height * pixel_size(dispatcher),
             });
     }
-    status = vulkan_command_submit(command);
-    if (status == STATUS_DONE)
-        status = vulkan_command_wait(command, &device_ms);
+    status = vulkan_command_run(command, &device_ms);
     *dispatch_ms += device_ms;
     return status;
 }

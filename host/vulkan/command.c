@@ -78,30 +78,22 @@ error:
     return STATUS_UNABLE;
 }
 
-enum status vulkan_command_submit(struct vulkan_command *command)
+enum status vulkan_command_run(struct vulkan_command *command, double *device_ms)
 {
+    const struct vulkan_context *context = command->context;
     vulkan_record_barrier(command->buffer);
     VULKAN_CALL(vkEndCommandBuffer, command->buffer);
-    command->submitted_ms = clock_ms();
-    VULKAN_CALL(vkQueueSubmit, command->context->queue, 1,
+    double start = clock_ms();
+    VULKAN_CALL(vkQueueSubmit, context->queue, 1,
                 &(VkSubmitInfo){
                     .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
                     .commandBufferCount = 1,
                     .pCommandBuffers = &command->buffer,
                 },
                 command->fence);
-    return STATUS_DONE;
-
-error:
-    return STATUS_UNABLE;
-}
-
-enum status vulkan_command_wait(struct vulkan_command *command, double *device_ms)
-{
-    struct vulkan_context *context = command->context;
     VULKAN_CALL(vkWaitForFences, context->device, 1, &command->fence, VK_TRUE, UINT64_MAX);
     VULKAN_CALL(vkResetFences, context->device, 1, &command->fence);
-    *device_ms = clock_ms() - command->submitted_ms;
+    *device_ms = clock_ms() - start;
     if (command->timestamps) {
         uint64_t ticks[TIMESTAMPS];
         VULKAN_CALL(vkGetQueryPoolResults, context->device, command->timestamps, 0, TIMESTAMPS, sizeof ticks,

@@ -5,14 +5,13 @@
 
 enum { STARTED, ENDED, TIMESTAMPS };
 
-/* A command buffer that is recorded, submitted and waited for, again and again. Several can be under way. */
+/* A command buffer that is recorded, run, again and again. */
 struct vulkan_command {
     struct vulkan_context *context;
     VkCommandPool pool;
     VkCommandBuffer buffer; /* to record into, after vulkan_command_begin() */
     VkFence fence;
     VkQueryPool timestamps; /* of the dispatch in it; VK_NULL_HANDLE: the queue has none */
-    double submitted_ms;    /* clock_ms() */
 };
 
 /* On failure (reported) *command is empty. */
@@ -25,12 +24,9 @@ void vulkan_command_destroy(struct vulkan_command *command);
  * device before. Failures, here and below, are reported. */
 enum status vulkan_command_begin(struct vulkan_command *command, const char *name);
 
-/* Ends the recording, so that the host will see what it writes, and hands it to the device. */
-enum status vulkan_command_submit(struct vulkan_command *command);
-
-/* Waits until the device has done it. *device_ms is the time that its dispatch took by the device's
- * timestamps, or, where there are none, the time since the submission. */
-enum status vulkan_command_wait(struct vulkan_command *command, double *device_ms);
+/* Ends the recording, has the device do it and waits for that; the host sees what it wrote. *device_ms is the
+ * time that its dispatch took by the device's timestamps, or, where there are none, since the submission. */
+enum status vulkan_command_run(struct vulkan_command *command, double *device_ms);
 
 /* Records that all that was written on the device so far is seen by what follows, and by the host. */
 void vulkan_record_barrier(VkCommandBuffer commands);

@@ -179,9 +179,7 @@ enum status vulkan_compute(struct vulkan_context *context, const struct compute_
         vulkan_command_begin(&command, info.name) != STATUS_DONE)
         goto end;
     vulkan_pass_record(&pass, &command, NULL, job->groups, 1);
-    status = vulkan_command_submit(&command);
-    if (status == STATUS_DONE)
-        status = vulkan_command_wait(&command, &unused_ms);
+    status = vulkan_command_run(&command, &unused_ms);
     if (status == STATUS_DONE)
         memcpy(job->output, output.mapped, job->output_size);
 

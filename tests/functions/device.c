@@ -111,9 +111,7 @@ enum status device_run(struct device *device, size_t count, double *ns)
     if (status != STATUS_DONE)
         return status;
     vulkan_pass_record(&device->pass, &device->command, NULL, (uint32_t)(count + GROUP - 1) / GROUP, 1);
-    status = vulkan_command_submit(&device->command);
-    if (status == STATUS_DONE)
-        status = vulkan_command_wait(&device->command, &milliseconds);
+    status = vulkan_command_run(&device->command, &milliseconds);
     *ns = milliseconds * 1e6;
     return status;
 }
