@@ -92,8 +92,6 @@ enum status dispatcher_create(const struct dispatcher_info *info, struct dispatc
     enum status status = create_buffers(dispatcher, info->options.event_room);
     if (status == STATUS_DONE)
         status = create_pass(dispatcher, info);
-    if (status == STATUS_DONE)
-        status = vulkan_command_create(info->context, &dispatcher->command);
     if (status != STATUS_DONE)
         dispatcher_destroy(dispatcher);
     return status;
@@ -103,7 +101,6 @@ void dispatcher_destroy(struct dispatcher *dispatcher)
 {
     if (!dispatcher->context)
         return;
-    vulkan_command_destroy(&dispatcher->command);
     vulkan_pass_destroy(&dispatcher->pass);
     for (int i = PICTURE; i < BINDINGS; ++i)
         vulkan_buffer_destroy(dispatcher->context, &dispatcher->buffers[i]);
@@ -113,25 +110,21 @@ void dispatcher_destroy(struct dispatcher *dispatcher)
 
 enum status dispatcher_run(struct dispatcher *dispatcher, const struct portion *portion, double *dispatch_ms)
 {
-    struct vulkan_command *command = &dispatcher->command;
     const struct dispatch_size *size = &dispatcher->size;
     const unsigned group_rows = size->group_height * size->rows;
+    const size_t pixels = (size_t)portion->tile_width * portion->tile_height;
     double device_ms = 0;
-    enum status status = vulkan_command_begin(command, "tile");
-    if (status != STATUS_DONE)
-        return status;
-    vulkan_pass_record(&dispatcher->pass, command, portion,
-                       (portion->tile_width + size->group_width - 1) / size->group_width,
-                       (portion->tile_height + group_rows - 1) / group_rows);
-    if (dispatcher->staging.buffer) {
-        vulkan_record_barrier(command->buffer);
-        vkCmdCopyBuffer(
-            command->buffer, dispatcher->buffers[PICTURE].buffer, dispatcher->staging.buffer, 1,
-            &(VkBufferCopy){
-                .size = (VkDeviceSize)portion->tile_width * portion->tile_height * pixel_size(dispatcher),
-            });
-    }
-    status = vulkan_command_run(command, &device_ms);
+    enum status status =
+        vulkan_pass_run(&dispatcher->pass,
+                        &(struct pass_dispatch){
+                            .push_constants = portion,
+                            .groups_x = (portion->tile_width + size->group_width - 1) / size->group_width,
+                            .groups_y = (portion->tile_height + group_rows - 1) / group_rows,
+                            .copy_from = dispatcher->buffers[PICTURE].buffer,
+                            .copy_to = dispatcher->staging.buffer,
+                            .copy_size = pixels * pixel_size(dispatcher),
+                        },
+                        &device_ms);
     *dispatch_ms += device_ms;
     return status;
 }

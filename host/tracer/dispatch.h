@@ -46,7 +46,6 @@ struct dispatcher {
     struct vulkan_buffer buffers[BINDINGS]; /* from PICTURE on, those that the pipeline uses */
     struct vulkan_buffer staging;           /* only where the host cannot read the picture well */
     struct vulkan_pass pass;
-    struct vulkan_command command;
 };
 
 /* A dispatch: samples of a tile. As TileBlock in whitted.comp. */
