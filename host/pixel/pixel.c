@@ -21,7 +21,7 @@ static enum status trace_and_show(const struct pixel_options *options, struct vu
     enum status status = pixel_trace_create(context, job, options->against, &trace);
     if (status != STATUS_DONE)
         return status;
-    if (!options->job.quiet)
+    if (!options->job.plan.quiet)
         pixel_print(&trace, options->all_light_samples);
     pixel_print_verdict(&trace);
     if (options->json)

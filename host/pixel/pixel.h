@@ -13,7 +13,7 @@ struct pixel_options {
     const char *json;       /* path of the file to write, or NULL */
 };
 
-/* Prints the ray tree of one pixel, as the device and the reference compute it (not if job.quiet), and
+/* Prints the ray tree of one pixel, as the device and the reference compute it (not if job.plan.quiet), and
  * whether they agree. STATUS_DIFFERS where they do not, or where the picture's pipeline makes another pixel
  * than the recording one; STATUS_REFUSED (reported) for a pixel outside the picture. */
 enum status pixel_show(const struct pixel_options *options);
