@@ -20,7 +20,7 @@ static void test_bytes(void **state)
     XImage *image = x11_window_pixels(&window);
     for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; ++i)
         for (size_t channel = 0; channel < 3; ++channel)
-            assert_int_equal((unsigned char)image->data[4 * i + 2 - channel], rgba[4 * i + channel]);
+            assert_int_equal((unsigned char)image->data[4 * i + 2 - channel], rgb[3 * i + channel]);
     XDestroyImage(image);
     draw_noise(2);
     assert_int_equal(show_picture(), STATUS_DONE);

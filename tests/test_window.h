@@ -18,13 +18,13 @@ static const double patience_ms = 30000; /* more than a loaded machine takes */
 static pid_t server;
 static struct display *display;
 static struct x11_window window;
-static unsigned char rgba[WIDTH * HEIGHT * 4];
+static unsigned char rgb[WIDTH * HEIGHT * 3];
 
 static inline void draw_noise(uint32_t seed)
 {
-    for (size_t i = 0; i < sizeof rgba; ++i) {
+    for (size_t i = 0; i < sizeof rgb; ++i) {
         seed = seed * 1664525 + 1013904223;
-        rgba[i] = (unsigned char)(seed >> 24);
+        rgb[i] = (unsigned char)(seed >> 24);
     }
 }
 
@@ -48,7 +48,7 @@ static inline enum status show_picture(void)
     unsigned char *picture = display_picture(display, WIDTH, HEIGHT);
     if (!picture)
         return STATUS_UNABLE;
-    memcpy(picture, rgba, sizeof rgba);
+    memcpy(picture, rgb, sizeof rgb);
     return display_paint(display);
 }
 
@@ -88,7 +88,7 @@ static inline double source_pixel(int x, int y, int channel)
 {
     x = x < 0 ? 0 : x >= WIDTH ? WIDTH - 1 : x;
     y = y < 0 ? 0 : y >= HEIGHT ? HEIGHT - 1 : y;
-    return rgba[4 * (y * WIDTH + x) + channel];
+    return rgb[3 * (y * WIDTH + x) + channel];
 }
 
 /* Whether the value is that of the pixel at (x, y), on an edge that of either side. */

@@ -16,7 +16,7 @@ static const double arrow_step = 1.0 / 32; /* of one key press, in picture heigh
 struct display {
     GLFWwindow *window;
     struct extent picture;       /* its size; 0 before the first */
-    unsigned char *rgba;         /* the picture */
+    unsigned char *rgb;          /* the picture */
     bool stale;                  /* the window does not show the picture as it should */
     bool dragging, panning;      /* the left button is down; Shift was, when it went down */
     double pointer_x, pointer_y; /* where it was last */
@@ -181,7 +181,7 @@ void display_destroy(struct display **pointer)
     if (!display)
         return;
     glfwDestroyWindow(display->window);
-    free(display->rgba);
+    free(display->rgb);
     free(display);
 }
 
@@ -189,15 +189,15 @@ unsigned char *display_picture(struct display *display, unsigned width, unsigned
 {
     GLint most;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    free(display->rgba);
-    display->rgba = NULL;
+    free(display->rgb);
+    display->rgb = NULL;
     if (width > (unsigned)most || height > (unsigned)most)
         log_error("a window shows pictures of up to %dx%d pixels, not %ux%u", most, most, width, height);
-    else if (!(display->rgba = malloc((size_t)width * height * 4)))
+    else if (!(display->rgb = malloc((size_t)width * height * 3)))
         log_error("no memory for the picture in the window");
-    display->picture = display->rgba ? (struct extent){width, height} : (struct extent){0};
+    display->picture = display->rgb ? (struct extent){width, height} : (struct extent){0};
     display->stale = true;
-    return display->rgba;
+    return display->rgb;
 }
 
 enum status display_paint(struct display *display)
@@ -221,8 +221,9 @@ enum status display_paint(struct display *display)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, (int)picture.width, (int)picture.height, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, display->rgba);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, (int)picture.width, (int)picture.height, 0, GL_RGB,
+                 GL_UNSIGNED_BYTE, display->rgb);
     glInterleavedArrays(GL_T2F_V3F, 0, corners);
     glDrawArrays(GL_QUADS, 0, 4);
     glfwSwapBuffers(display->window);

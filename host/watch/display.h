@@ -26,8 +26,8 @@ struct display_input {
 enum status display_create(unsigned width, unsigned height, struct display **display);
 void display_destroy(struct display **display);
 
-/* Where the next picture goes, in place of the last one: 8-bit sRGB values as RGBA, row 0 on top, what A is
- * does not matter. The memory stays the display's. NULL (reported) without memory, or where no window shows
+/* Where the next picture goes, in place of the last one: 8-bit sRGB values as RGB, row 0 on top. The
+ * memory stays the display's. NULL (reported) without memory, or where no window shows
  * one as large as that. */
 unsigned char *display_picture(struct display *display, unsigned width, unsigned height);
 

@@ -193,16 +193,15 @@ enum status session_show(struct session *session, const struct image *image)
     enum status status = STATUS_DONE;
     if (!session->display)
         status = display_create(image->width, image->height, &session->display);
-    uint8_t *rgba =
+    uint8_t *rgb =
         status == STATUS_DONE ? display_picture(session->display, image->width, image->height) : NULL;
-    if (!rgba)
+    const size_t count = 3 * (size_t)image->width * image->height;
+    if (!rgb)
         return STATUS_UNABLE;
-    for (size_t i = 0; i < (size_t)image->width * image->height; ++i) {
-        if (session->options->transfer == TRANSFER_SRGB)
-            srgb_encode(&session->encoder, image->rgb + 3 * i, 3, rgba + 4 * i);
-        else
-            linear_encode(image->rgb + 3 * i, 3, rgba + 4 * i);
-    }
+    if (session->options->transfer == TRANSFER_SRGB)
+        srgb_encode(&session->encoder, image->rgb, count, rgb);
+    else
+        linear_encode(image->rgb, count, rgb);
     session->shows_difference = false;
     return display_paint(session->display);
 }

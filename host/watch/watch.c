@@ -83,9 +83,9 @@ static void toggle_difference(struct session *session)
         image_compare(image, &reference.image, NULL, &comparison);
         session->shows_difference = true;
         session->differing = comparison.differing;
-        unsigned char *rgba = display_picture(session->display, image->width, image->height);
-        for (size_t i = 0; rgba && i < (size_t)image->width * image->height; ++i)
-            heatmap_color(image->rgb + 3 * i, reference.image.rgb + 3 * i, rgba + 4 * i);
+        unsigned char *rgb = display_picture(session->display, image->width, image->height);
+        for (size_t i = 0; rgb && i < (size_t)image->width * image->height; ++i)
+            heatmap_color(image->rgb + 3 * i, reference.image.rgb + 3 * i, rgb + 3 * i);
         image_destroy(&reference.image);
     }
 }
