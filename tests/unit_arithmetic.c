@@ -17,8 +17,7 @@
 #include "arithmetic_far.h"
 #include "arithmetic_native.h"
 #include "arithmetic_within_bounds.h"
-#include "vulkan/compute.h"
-#include "vulkan/hostile_operands.h"
+#include "vulkan/pass.h"
 #include "vulkan/probe.h"
 
 enum { BATCH = 1 << 20, BATCHES = 4, GROUP = 64 };
@@ -68,7 +67,7 @@ static void fill(uint64_t seed, int batch, struct words *operands)
     hostile_operands(state, hostile, BATCH);
     for (size_t i = 0; i < BATCH; ++i)
         operands[i] = i / 8 % 2 ? (struct words){bits_of(hostile[i].a), bits_of(hostile[i].b)}
-                                : (struct words){random_bits(&state), random_bits(&state)};
+                                : (struct words){random_word(&state), random_word(&state)};
     free(hostile);
     if (batch == 0)
         (void)edge_pairs(operands);
@@ -120,17 +119,22 @@ static struct tally run(struct vulkan_context *context, struct spirv code, bool 
     for (int batch = 0; batch < batches; ++batch) {
         fill(seed, batch, operands);
         assert_int_equal(
-            vulkan_compute(context,
-                           &(struct compute_job){
-                               .code = code,
-                               .constants = (const struct pass_constant[]){{0, corrected}, {1, corrected}},
-                               .constant_count = 2,
-                               .input = operands,
-                               .input_size = BATCH * sizeof *operands,
-                               .output = results,
-                               .output_size = BATCH * sizeof *results,
-                               .groups = BATCH / GROUP,
-                           }),
+            vulkan_compute(
+                context,
+                &(struct compute_job){
+                    .pass =
+                        {
+                            .name = "arithmetic",
+                            .code = code,
+                            .constants = (const struct pass_constant[]){{0, corrected}, {1, corrected}},
+                            .constant_count = 2,
+                        },
+                    .input = operands,
+                    .input_size = BATCH * sizeof *operands,
+                    .output = results,
+                    .output_size = BATCH * sizeof *results,
+                    .groups = BATCH / GROUP,
+                }),
             STATUS_DONE);
         judge(operands, results, normal, print, &tally);
     }

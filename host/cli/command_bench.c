@@ -19,7 +19,7 @@ static enum status measure(const struct options *options, struct vulkan_context 
                 .width = options->job.width,
                 .height = options->job.height,
                 .quick = options->quick,
-                .quiet = options->job.quiet,
+                .quiet = options->job.plan.quiet,
                 .wants_pictures = options->report != NULL,
             },
             context, options->scenes[i], &scene);

@@ -105,7 +105,7 @@ static enum status read_place(struct options *options)
 static enum status check_consistency(const struct options *options)
 {
     enum command_id command = options->command;
-    enum precision precision = options->job.precision;
+    enum precision precision = options->job.plan.precision;
     size_t scenes = options->scene_count;
     const char *suffix = options->heatmap ? strrchr(options->heatmap, '.') : NULL;
     bool cpu = options->backend == BACKEND_CPU, against = options->against != PRECISION_FLOAT;
@@ -123,9 +123,9 @@ static enum status check_consistency(const struct options *options)
          "pixel computes in float or double; see --against"},
         {command == COMMAND_PIXEL && scenes != 3, "pixel takes a scene file, a column and a row"},
         {precision == PRECISION_QUAD && !cpu, "--precision quad needs --backend cpu"},
-        {precision != PRECISION_FLOAT && (options->job.fast || against),
+        {precision != PRECISION_FLOAT && (options->job.plan.fast || against),
          "--fast and --against go with --precision float"},
-        {cpu && options->job.fast, "--fast is a device's pipeline; it does not go with --backend cpu"},
+        {cpu && options->job.plan.fast, "--fast is a device's pipeline; it does not go with --backend cpu"},
         {cpu && (options->vulkan.device || options->vulkan.validate),
          "--device and --validate do not go with --backend cpu"},
         {cpu && command == COMMAND_CHECK && !against, "check --backend cpu needs --against double or quad"},
@@ -176,8 +176,8 @@ enum status command_line_read(int argc, char **argv, struct options *options)
         status = read_options(argc - 1, argv + 1, options);
     if (status != STATUS_DONE || options->help || options->version)
         return status;
-    log_set_verbosity(options->job.quiet ? -1 : options->verbose ? 1 : 0);
-    options->job.count_rays = options->stats != NULL;
+    log_set_verbosity(options->job.plan.quiet ? -1 : options->verbose ? 1 : 0);
+    options->job.plan.count_rays = options->stats != NULL;
     if (options->command == COMMAND_WATCH && options->output_count == 0)
         options->window = options->window || getenv("DISPLAY") || getenv("WAYLAND_DISPLAY");
     status = check_consistency(options);

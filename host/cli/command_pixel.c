@@ -11,7 +11,7 @@ static enum status show(const struct options *options, struct vulkan_context *co
     enum status status = pixel_trace_create(context, job, options->against, &trace);
     if (status != STATUS_DONE)
         return status;
-    if (!options->job.quiet)
+    if (!options->job.plan.quiet)
         pixel_print(&trace, options->verbose);
     pixel_print_verdict(&trace);
     if (options->json)

@@ -31,8 +31,9 @@ static void report_truncation(const struct options *options, const struct job *j
     if (beyond > 0)
         log_warning(
             "%s: %zu of %zu pixels may be off by more than --max-error %g, by up to %g: rays end after "
-            "%u bounces; see --max-bounces",
-            options->scenes[0], beyond, pixels, options->job.max_error, (double)largest, job->max_bounces);
+            "%d bounces; see --max-bounces",
+            options->scenes[0], beyond, pixels, options->job.max_error, (double)largest,
+            job->packed.max_bounces);
 }
 
 static enum status write_stats(const struct options *options, const struct job *job,
@@ -47,11 +48,12 @@ static enum status write_stats(const struct options *options, const struct job *
         "{s:s, s:s, s:o, s:i, s:i, s:s, s:s, s:i, s:i, s:i, s:f, s:f, s:f, s:f, s:{s:I, s:I, s:I}, s:f}",
         "scene", options->scenes[0], "device", device_name(context), "driver", driver, "width",
         (int)job->plan.window.width, "height", (int)job->plan.window.height, "precision",
-        precision_name(options->job.precision), "mode", options->job.fast ? "fast" : "exact", "max_bounces",
-        (int)job->max_bounces, "samples", job->packed.samples, "light_samples", job->packed.light_samples,
-        "setup_ms", rendering->setup_ms, "first_dispatch_ms", rendering->first_dispatch_ms, "dispatch_ms",
-        rendering->dispatch_ms, "write_ms", write_ms, "rays", "primary", (json_int_t)rays->primary,
-        "secondary", (json_int_t)rays->secondary, "shadow", (json_int_t)rays->shadow, "rays_per_second",
+        precision_name(options->job.plan.precision), "mode", options->job.plan.fast ? "fast" : "exact",
+        "max_bounces", job->packed.max_bounces, "samples", job->packed.samples, "light_samples",
+        job->packed.light_samples, "setup_ms", rendering->setup_ms, "first_dispatch_ms",
+        rendering->first_dispatch_ms, "dispatch_ms", rendering->dispatch_ms, "write_ms", write_ms, "rays",
+        "primary", (json_int_t)rays->primary, "secondary", (json_int_t)rays->secondary, "shadow",
+        (json_int_t)rays->shadow, "rays_per_second",
         rendering->dispatch_ms > 0 ? total / rendering->dispatch_ms * 1000 : 0);
     return json_write(stats, options->stats);
 }

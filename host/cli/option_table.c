@@ -99,8 +99,7 @@ static bool read_crop(const struct option_entry *option, const char *value, void
     if (!parse_list(value, ',', 4, SCENE_MAX_SIZE, crop) || crop[2] == 0 || crop[3] == 0)
         return refuse(option, value,
                       "X,Y,WIDTH,HEIGHT in pixels from the top left, width and height at least 1");
-    options->job.has_crop = true;
-    options->job.crop = (struct window){crop[0], crop[1], crop[2], crop[3]};
+    options->job.plan.window = (struct window){crop[0], crop[1], crop[2], crop[3]};
     return true;
 }
 
@@ -154,14 +153,14 @@ const struct option_entry option_table[] = {
      "leave out rays that together change no channel of a pixel by\n"
      "more than E in linear radiance; raise --max-bounces with it"},
     {"precision", "", RENDER | CHECK | WATCH | PIXEL,
-     CHOICE("float|double|quad", job.precision, PRECISION_FLOAT),
+     CHOICE("float|double|quad", job.plan.precision, PRECISION_FLOAT),
      "double on a device that has it, quad (binary128) on the CPU"},
 
     {"crop", "", RENDER | CHECK | WATCH, OTHER("X,Y,W,H", read_crop),
      "only this part of the picture, in pixels from the top left"},
-    {"fast", "", RENDER | CHECK | WATCH, FLAG(job.fast),
+    {"fast", "", RENDER | CHECK | WATCH, FLAG(job.plan.fast),
      "contraction and built-in functions allowed on the device"},
-    {"threads", "", RENDER | CHECK | WATCH, NUMBER(job.threads, 1, 1024),
+    {"threads", "", RENDER | CHECK | WATCH, NUMBER(job.plan.threads, 1, 1024),
      "of the CPU reference (default: one a processor)"},
 
     {"backend", "", RENDER | CHECK | BENCH, CHOICE("vulkan|cpu", backend, BACKEND_VULKAN),
@@ -172,7 +171,7 @@ const struct option_entry option_table[] = {
      "of 8-bit files (default srgb)"},
 
     {"stats", "", RENDER, TEXT("FILE", stats), "times, rays and device as JSON"},
-    {"repeat", "", RENDER, NUMBER(job.repeat, 1, 100000),
+    {"repeat", "", RENDER, NUMBER(job.plan.repeat, 1, 100000),
      "render again as often; the time is the median of these"},
 
     {"tolerance", "", CHECK, OTHER("ABS[,REL]", read_tolerance),
@@ -205,7 +204,7 @@ const struct option_entry option_table[] = {
      "the device with this number, or with this in its name"},
     {"validate", "", ALL, FLAG(vulkan.validate),
      "with the Khronos validation layer; any message is an error"},
-    {"", "q", ALL, FLAG(job.quiet), "quiet: errors only"},
+    {"", "q", ALL, FLAG(job.plan.quiet), "quiet: errors only"},
     {"", "v", ALL, FLAG(verbose), "verbose: also the device; all light samples of a pixel"},
     {"help", "h", ALL, FLAG(help), "this text"},
     {"version", "", ALL, FLAG(version), "the program's version"},

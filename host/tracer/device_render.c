@@ -10,6 +10,14 @@ static enum status render_once_on_device(void *renderer, const struct render_pla
     return tracer_render(renderer, plan->window, image, progress, milliseconds);
 }
 
+static enum status create_tracer(struct vulkan_context *context, const struct render_plan *plan, int output,
+                                 struct tracer **tracer)
+{
+    const struct tracer_options options = {
+        .double_precision = plan->precision == PRECISION_DOUBLE, .fast = plan->fast, .output = output};
+    return tracer_create(context, plan->scene, &options, tracer);
+}
+
 /* Renders another output than radiance. */
 static enum status render_output(struct vulkan_context *context, const struct render_plan *plan, int output,
                                  const struct tracer_values *values)
@@ -23,13 +31,7 @@ static enum status render_output(struct vulkan_context *context, const struct re
     struct progress progress;
     double unused_ms;
     progress_start(&progress, tasks[output], (uint64_t)plan->window.width * plan->window.height, plan->quiet);
-    enum status status = tracer_create(context, plan->scene,
-                                       &(struct tracer_options){
-                                           .double_precision = plan->precision == PRECISION_DOUBLE,
-                                           .fast = plan->fast,
-                                           .output = output,
-                                       },
-                                       &tracer);
+    enum status status = create_tracer(context, plan, output, &tracer);
     if (status == STATUS_DONE)
         status = tracer_render_values(tracer, plan->window, values, &progress, &unused_ms);
     progress_end(&progress);
@@ -68,16 +70,10 @@ enum status signatures_on_device(struct vulkan_context *context, const struct re
 static enum status bound_truncation(struct vulkan_context *context, const struct render_plan *plan,
                                     struct image *image)
 {
-    struct image charges;
-    image->truncation = allocate_pixels(&plan->window, sizeof *image->truncation);
-    enum status status =
-        image->truncation ? image_create(image->width, image->height, &charges) : STATUS_UNABLE;
-    if (status != STATUS_DONE)
-        return status;
-    status = render_output(context, plan, OUTPUT_TRUNCATION, &(struct tracer_values){.image = &charges});
-    for (size_t i = 0; status == STATUS_DONE && i < (size_t)charges.width * charges.height; ++i)
-        image->truncation[i] = (float)truncation_bound(plan->scene, (double)charges.rgb[3 * i]);
-    image_destroy(&charges);
+    enum status status = render_output(context, plan, OUTPUT_TRUNCATION,
+                                       &(struct tracer_values){.charges = image->truncation});
+    for (size_t i = 0; status == STATUS_DONE && i < (size_t)image->width * image->height; ++i)
+        image->truncation[i] = (float)truncation_bound(plan->scene, (double)image->truncation[i]);
     return status;
 }
 
@@ -87,12 +83,7 @@ enum status render_on_device(struct vulkan_context *context, const struct render
     *rendering = (struct rendering){0};
     double start = clock_ms();
     struct tracer *tracer;
-    enum status status = tracer_create(context, plan->scene,
-                                       &(struct tracer_options){
-                                           .double_precision = plan->precision == PRECISION_DOUBLE,
-                                           .fast = plan->fast,
-                                       },
-                                       &tracer);
+    enum status status = create_tracer(context, plan, OUTPUT_RADIANCE, &tracer);
     if (status != STATUS_DONE)
         return status;
     rendering->setup_ms = clock_ms() - start;

@@ -1,7 +1,5 @@
 #include "tracer/dispatch.h"
 
-#include <stdio.h>
-
 #include "base/clock.h"
 
 enum { CONSTANTS = sizeof(struct specialization) / sizeof(uint32_t) };
@@ -12,103 +10,88 @@ static size_t pixel_size(const struct dispatcher *dispatcher)
     return CHANNELS * (dispatcher->value_type == VALUE_DOUBLE ? sizeof(double) : sizeof(float));
 }
 
-static enum status create_picture(struct dispatcher *dispatcher)
+static enum status create_buffers(struct dispatcher *dispatcher, uint32_t event_room)
 {
-    VkDeviceSize size = dispatcher->size.tile_pixels * pixel_size(dispatcher);
-    enum status status =
-        vulkan_buffer_create(dispatcher->context, "tile of the picture", size,
-                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                             BUFFER_DEVICE, &dispatcher->picture);
-    if (status == STATUS_DONE && !dispatcher->picture.mapped)
-        status =
-            vulkan_buffer_create(dispatcher->context, "tile for the host", size,
-                                 VK_BUFFER_USAGE_TRANSFER_DST_BIT, BUFFER_READBACK, &dispatcher->staging);
-    dispatcher->values = dispatcher->staging.buffer ? dispatcher->staging.mapped : dispatcher->picture.mapped;
-    return status;
-}
-
-static enum status create_saved(struct dispatcher *dispatcher)
-{
-    const VkDeviceSize pixels = dispatcher->size.tile_pixels;
-    enum status status =
-        vulkan_buffer_create(dispatcher->context, "saved pixels", pixels * SAVED_PIXEL_BYTES,
-                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BUFFER_DEVICE, &dispatcher->saved_pixels);
-    if (status == STATUS_DONE)
-        status = vulkan_buffer_create(
-            dispatcher->context, "saved stacks", pixels * dispatcher->size.stack_room * SAVED_PATH_BYTES,
-            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BUFFER_DEVICE, &dispatcher->saved_stacks);
-    return status;
-}
-
-static enum status create_events(struct dispatcher *dispatcher, uint32_t room)
-{
-    size_t value_size = pixel_size(dispatcher) / CHANNELS;
-    enum status status =
-        vulkan_buffer_create(dispatcher->context, "events",
-                             sizeof(struct event_block) +
-                                 (sizeof(struct EventHead) + EVENT_VALUES * value_size) * (VkDeviceSize)room,
-                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BUFFER_READBACK, &dispatcher->events);
-    if (status == STATUS_DONE)
-        *(struct event_block *)dispatcher->events.mapped = (struct event_block){.room = room};
+    static const char *const names[BINDINGS] = {
+        [PICTURE] = "tile of the picture",
+        [SAVED_PIXELS] = "saved pixels",
+        [SAVED_STACKS] = "saved stacks",
+        [EVENTS] = "events",
+    };
+    const struct dispatch_size *size = &dispatcher->size;
+    const VkDeviceSize pixels = size->tile_pixels, picture_bytes = pixels * pixel_size(dispatcher);
+    const size_t event_bytes = sizeof(struct EventHead) + EVENT_VALUES * pixel_size(dispatcher) / CHANNELS;
+    const VkDeviceSize bytes[BINDINGS] = {
+        [PICTURE] = picture_bytes,
+        [SAVED_PIXELS] = size->stack_room > 0 ? pixels * SAVED_PIXEL_BYTES : 0,
+        [SAVED_STACKS] = pixels * size->stack_room * SAVED_PATH_BYTES,
+        [EVENTS] = event_room > 0 ? sizeof(struct event_block) + event_room * event_bytes : 0,
+    };
+    struct vulkan_buffer *buffers = dispatcher->buffers, *staging = &dispatcher->staging;
+    enum status status = STATUS_DONE;
+    for (int i = PICTURE; i < BINDINGS && status == STATUS_DONE; ++i)
+        if (bytes[i] > 0)
+            status = vulkan_buffer_create(dispatcher->context, names[i], bytes[i],
+                                          i == EVENTS ? BUFFER_READBACK : BUFFER_DEVICE, &buffers[i]);
+    if (status == STATUS_DONE && !buffers[PICTURE].mapped)
+        status = vulkan_buffer_create(dispatcher->context, "tile for the host", picture_bytes,
+                                      BUFFER_READBACK, staging);
+    if (status == STATUS_DONE && event_room > 0)
+        *(struct event_block *)buffers[EVENTS].mapped = (struct event_block){.room = event_room};
+    dispatcher->values = staging->buffer ? staging->mapped : buffers[PICTURE].mapped;
     return status;
 }
 
 static enum status create_pass(struct dispatcher *dispatcher, const struct dispatcher_info *info)
 {
-    /* the buffers that the pipeline does not use need something in their places */
-    const VkBuffer picture = dispatcher->picture.buffer;
-    const VkBuffer buffers[BINDINGS] = {
-        [PICTURE] = picture,
-        [SAVED_PIXELS] = info->size.stack_room ? dispatcher->saved_pixels.buffer : picture,
-        [SAVED_STACKS] = info->size.stack_room ? dispatcher->saved_stacks.buffer : picture,
-        [EVENTS] = dispatcher->events.buffer,
-    };
-    struct pass_binding bindings[BINDINGS];
-    for (uint32_t i = 0; i < BINDINGS; ++i) {
-        bindings[i].type = is_storage_buffer(i, info->scene_in_storage) ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-                                                                        : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-        bindings[i].memory = i < SCENE_BINDINGS ? info->scene->parts[i]
-                                                : (VkDescriptorBufferInfo){buffers[i], 0, VK_WHOLE_SIZE};
-    }
+    const struct shader_choice choice = info->choice;
+    const struct specialization specialization =
+        specialize(info->context, info->scene, &dispatcher->size, info->options.output);
     struct pass_constant constants[CONSTANTS];
     for (uint32_t i = 0; i < CONSTANTS; ++i)
-        constants[i] = (struct pass_constant){i, ((const uint32_t *)&info->constants)[i]};
+        constants[i] = (struct pass_constant){i, ((const uint32_t *)&specialization)[i]};
+    struct pass_binding bindings[BINDINGS];
+    for (uint32_t i = 0; i < BINDINGS; ++i) {
+        /* the buffers that the pipeline does not use need something in their places */
+        const struct vulkan_buffer *buffer =
+            &dispatcher->buffers[dispatcher->buffers[i].buffer ? i : PICTURE];
+        bindings[i].type = is_storage_buffer(i, choice.scene_in_storage) ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                                                         : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        bindings[i].memory = i < SCENE_BINDINGS ? info->scene_buffer.parts[i]
+                                                : (VkDescriptorBufferInfo){buffer->buffer, 0, VK_WHOLE_SIZE};
+    }
     double start = clock_ms();
-    enum status status = vulkan_pass_create(dispatcher->context,
-                                            &(struct pass_info){
-                                                .name = "whitted.comp",
-                                                .code = info->code,
-                                                .constants = constants,
-                                                .constant_count = CONSTANTS,
-                                                .bindings = bindings,
-                                                .binding_count = info->event_room > 0 ? BINDINGS : EVENTS,
-                                                .push_constant_size = sizeof(struct portion),
-                                            },
-                                            &dispatcher->pass);
+    enum status status = vulkan_pass_create(
+        dispatcher->context,
+        &(struct pass_info){
+            .name = "whitted.comp",
+            .code = info->options.code.words ? info->options.code
+                                             : whitted_spirv(choice.variant, choice.scene_in_storage),
+            .constants = constants,
+            .constant_count = CONSTANTS,
+            .bindings = bindings,
+            .binding_count = info->options.event_room > 0 ? BINDINGS : EVENTS,
+            .push_constant_size = sizeof(struct portion),
+        },
+        &dispatcher->pass);
     log_info("pipeline built in %.1f ms", clock_ms() - start);
     return status;
 }
 
-enum status dispatcher_create(struct vulkan_context *context, const struct dispatcher_info *info,
+enum status dispatcher_create(const struct dispatcher_info *info, struct dispatch_size size,
                               struct dispatcher *dispatcher)
 {
-    const int output = info->constants.output;
+    const int output = info->options.output;
     *dispatcher = (struct dispatcher){
-        .context = context,
-        .size = info->size,
+        .context = info->context,
+        .size = size,
         .value_type = output == OUTPUT_RAYS || output == OUTPUT_SIGNATURE ? VALUE_UINT32
-                      : info->double_precision                            ? VALUE_DOUBLE
+                      : info->options.double_precision                    ? VALUE_DOUBLE
                                                                           : VALUE_FLOAT,
     };
-    enum status status = create_picture(dispatcher);
-    if (status == STATUS_DONE && info->size.stack_room > 0)
-        status = create_saved(dispatcher);
-    if (status == STATUS_DONE && info->event_room > 0)
-        status = create_events(dispatcher, info->event_room);
+    enum status status = create_buffers(dispatcher, info->options.event_room);
     if (status == STATUS_DONE)
         status = create_pass(dispatcher, info);
-    if (status == STATUS_DONE)
-        status = vulkan_command_create(context, &dispatcher->command);
     if (status != STATUS_DONE)
         dispatcher_destroy(dispatcher);
     return status;
@@ -116,46 +99,32 @@ enum status dispatcher_create(struct vulkan_context *context, const struct dispa
 
 void dispatcher_destroy(struct dispatcher *dispatcher)
 {
-    struct vulkan_context *context = dispatcher->context;
-    if (!context)
+    if (!dispatcher->context)
         return;
-    vulkan_command_destroy(&dispatcher->command);
     vulkan_pass_destroy(&dispatcher->pass);
-    vulkan_buffer_destroy(context, &dispatcher->events);
-    vulkan_buffer_destroy(context, &dispatcher->saved_stacks);
-    vulkan_buffer_destroy(context, &dispatcher->saved_pixels);
-    vulkan_buffer_destroy(context, &dispatcher->staging);
-    vulkan_buffer_destroy(context, &dispatcher->picture);
+    for (int i = PICTURE; i < BINDINGS; ++i)
+        vulkan_buffer_destroy(dispatcher->context, &dispatcher->buffers[i]);
+    vulkan_buffer_destroy(dispatcher->context, &dispatcher->staging);
     *dispatcher = (struct dispatcher){0};
 }
 
 enum status dispatcher_run(struct dispatcher *dispatcher, const struct portion *portion, double *dispatch_ms)
 {
-    struct vulkan_command *command = &dispatcher->command;
-    const struct group_shape *shape = &dispatcher->size.shape;
-    const unsigned group_rows = shape->height * shape->rows;
-    char label[96];
+    const struct dispatch_size *size = &dispatcher->size;
+    const unsigned group_rows = size->group_height * size->rows;
+    const size_t pixels = (size_t)portion->tile_width * portion->tile_height;
     double device_ms = 0;
-    snprintf(label, sizeof label, "tile of %ux%u at %u, %u, samples %u to %u", portion->tile_width,
-             portion->tile_height, portion->tile_x, portion->tile_y, portion->first_sample,
-             portion->end_sample);
-    enum status status = vulkan_command_begin(command, label);
-    if (status != STATUS_DONE)
-        return status;
-    vulkan_pass_record(&dispatcher->pass, command, portion,
-                       (portion->tile_width + shape->width - 1) / shape->width,
-                       (portion->tile_height + group_rows - 1) / group_rows);
-    if (dispatcher->staging.buffer) {
-        vulkan_record_barrier(command->buffer, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
-        vkCmdCopyBuffer(
-            command->buffer, dispatcher->picture.buffer, dispatcher->staging.buffer, 1,
-            &(VkBufferCopy){
-                .size = (VkDeviceSize)portion->tile_width * portion->tile_height * pixel_size(dispatcher),
-            });
-    }
-    status = vulkan_command_submit(command);
-    if (status == STATUS_DONE)
-        status = vulkan_command_wait(command, &device_ms);
+    enum status status =
+        vulkan_pass_run(&dispatcher->pass,
+                        &(struct pass_dispatch){
+                            .push_constants = portion,
+                            .groups_x = (portion->tile_width + size->group_width - 1) / size->group_width,
+                            .groups_y = (portion->tile_height + group_rows - 1) / group_rows,
+                            .copy_from = dispatcher->buffers[PICTURE].buffer,
+                            .copy_to = dispatcher->staging.buffer,
+                            .copy_size = pixels * pixel_size(dispatcher),
+                        },
+                        &device_ms);
     *dispatch_ms += device_ms;
     return status;
 }

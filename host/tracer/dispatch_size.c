@@ -1,4 +1,4 @@
-#include "tracer/dispatch_size.h"
+#include "tracer/specialization.h"
 
 enum { LEAST_TILE_PIXELS = 1024, MOST_TILE_PIXELS = 1 << 21, LARGEST_PIXEL = 3 * sizeof(double) };
 
@@ -17,15 +17,16 @@ static unsigned choose_tile_pixels(const struct vulkan_context *context, const s
 
 /* So many that an invocation's loops stay well below lavapipe's limit, as far as can be told beforehand: as
  * resume.glsl counts them, with 16 rays and as many leaves where there are secondary rays. */
-static unsigned choose_samples(const struct packed_scene *scene, const struct group_shape *shape)
+static unsigned choose_samples(const struct vulkan_context *context, const struct packed_scene *scene,
+                               const struct dispatch_size *size)
 {
-    struct specialization constants = specialize(scene, shape, OUTPUT_RADIANCE);
+    struct specialization constants = specialize(context, scene, size, OUTPUT_RADIANCE);
     uint64_t objects = (uint64_t)(scene->sphere_count + scene->plane_count);
     uint64_t lights = (uint64_t)scene->point_light_count +
                       (uint64_t)scene->quad_light_count * (uint64_t)scene->light_samples;
     uint64_t rays = (constants.mirrors || constants.glass) && scene->max_bounces > 0 ? 16 : 1;
     uint64_t turns_over_objects = objects <= 8 ? 1 : 1 + objects;
-    uint64_t samples = (UINT64_C(1) << 15) / (shape->rows * rays * turns_over_objects * (1 + lights));
+    uint64_t samples = (UINT64_C(1) << 15) / (size->rows * rays * turns_over_objects * (1 + lights));
     samples = samples < 1 ? 1 : samples;
     return (unsigned)(samples < (uint64_t)scene->samples ? samples : (uint64_t)scene->samples);
 }
@@ -36,9 +37,11 @@ struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
     /* A processor's lanes share the loading of the scene over many pixels; a GPU wants many invocations. */
     bool on_processor = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     struct dispatch_size size = {
-        .shape = {.width = 8, .height = on_processor ? 1 : 8, .rows = on_processor ? 16 : 1},
+        .group_width = 8,
+        .group_height = on_processor ? 1 : 8,
+        .rows = on_processor ? 16 : 1,
     };
-    size.samples = choose_samples(scene, &size.shape);
+    size.samples = choose_samples(context, scene, &size);
     size.tile_pixels = choose_tile_pixels(context, scene, size.samples);
     return size;
 }
@@ -50,7 +53,7 @@ struct dispatch_size dispatch_size_resumable(struct dispatch_size size, const st
     unsigned pixels = MOST_BYTES / (SAVED_PATH_BYTES * size.stack_room);
     pixels = pixels < MOST_PIXELS ? pixels : MOST_PIXELS;
     size.tile_pixels = size.tile_pixels < pixels ? size.tile_pixels : pixels;
-    size.shape.rows = 1;
+    size.rows = 1;
     size.samples = 1;
     return size;
 }

@@ -1,7 +1,9 @@
 #ifndef VKWHITTED_TRACER_INTERFACE_H
 #define VKWHITTED_TRACER_INTERFACE_H
 
-#include "tracer/whitted_spirv.h"
+#include <stdbool.h>
+
+#include "vulkan/pass.h"
 
 /* The bindings of the shader's set 0. */
 enum {
@@ -21,11 +23,37 @@ enum {
 /* Whether the binding is a storage buffer; otherwise it is a uniform buffer. */
 bool is_storage_buffer(uint32_t binding, bool scene_in_storage);
 
+enum whitted_variant {
+    WHITTED_EXACT,
+    WHITTED_CORRECTED, /* for a device whose / or sqrt is not exact */
+    WHITTED_DOUBLE,    /* exact, in double precision */
+    WHITTED_FAST,
+    /* these tell of one pixel, see shaders/events.glsl; in the order of those above */
+    WHITTED_EXACT_EVENTS,
+    WHITTED_CORRECTED_EVENTS,
+    WHITTED_DOUBLE_EVENTS,
+};
+
 /* Which of the shader's variants is needed. */
 struct shader_choice {
     enum whitted_variant variant;
     bool scene_in_storage;
 };
+
+struct tracer_options {
+    bool double_precision; /* exact mode only, on a device with fp64 */
+    bool fast;             /* contraction and built-in functions allowed */
+    int output;            /* OUTPUT_ of scene_layout.h */
+    uint32_t event_room;   /* 0: no events are recorded; exact mode only */
+    struct spirv code;     /* of the shader that tracer_shader() tells; empty: the built-in one */
+};
+
+/* shaders/whitted.comp as compiled by the build, the scene in uniform or in storage buffers. */
+struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage);
+
+/* The options with which the build has glslangValidator compile it; NULL behind the last. Not for the
+ * variants that tell of one pixel. */
+const char *const *whitted_defines(enum whitted_variant variant, bool scene_in_storage);
 
 /* Whether the code, which is valid, uses no other buffers than a tracer provides: drivers crash otherwise. If
  * not, problem says what is wrong. */

@@ -3,13 +3,10 @@
 #include "base/interrupt.h"
 #include "scene/warnings.h"
 
-static enum status choose_window(const struct job_options *options, const struct picture_settings *settings,
-                                 struct window *window)
+static enum status choose_window(const struct picture_settings *settings, struct window *window)
 {
-    *window = (struct window){0, 0, settings->width, settings->height};
-    if (!options->has_crop)
-        return STATUS_DONE;
-    *window = options->crop;
+    if (window->width == 0)
+        *window = (struct window){0, 0, settings->width, settings->height};
     if (window->x + window->width <= settings->width && window->y + window->height <= settings->height)
         return STATUS_DONE;
     log_error("--crop %u,%u,%u,%u: expected a part of the picture of %ux%u", window->x, window->y,
@@ -31,17 +28,9 @@ enum status job_create_from(const struct job_options *options, struct scene *sce
         .has_max_error = options->has_max_error,
         .max_error = options->max_error,
     };
-    job->max_bounces = settings.max_bounces;
-    job->plan = (struct render_plan){
-        .scene = &job->packed,
-        .precision = options->precision,
-        .threads = options->threads,
-        .fast = options->fast,
-        .repeat = options->repeat,
-        .count_rays = options->count_rays,
-        .quiet = options->quiet,
-    };
-    enum status status = choose_window(options, &settings, &job->plan.window);
+    job->plan = options->plan;
+    job->plan.scene = &job->packed;
+    enum status status = choose_window(&settings, &job->plan.window);
     if (status == STATUS_DONE)
         status = pack_scene(scene, &settings, &job->packed);
     if (status != STATUS_DONE)
@@ -74,7 +63,7 @@ enum status job_write(const struct job *job, const struct image *image, const ch
         .scene = job->scene.path,
         .device = device,
         .precision = precision_name(job->plan.precision),
-        .max_bounces = job->max_bounces,
+        .max_bounces = (unsigned)job->packed.max_bounces,
     };
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < path_count && status == STATUS_DONE; ++i)

@@ -12,15 +12,8 @@ struct job_options {
     unsigned samples;       /* a pixel */
     unsigned light_samples; /* 0: the scene's */
     bool has_max_error;
-    double max_error; /* linear radiance */
-    bool has_crop;
-    struct window crop;
-    enum precision precision;
-    bool fast;
-    unsigned threads; /* 0: all */
-    unsigned repeat;  /* warm renderings after the first */
-    bool count_rays;
-    bool quiet;
+    double max_error;        /* linear radiance */
+    struct render_plan plan; /* but for its scene; window of width 0: the whole picture */
 };
 
 /* A scene file made ready to render. */
@@ -28,7 +21,6 @@ struct job {
     struct scene scene;
     struct packed_scene packed;
     struct render_plan plan;
-    unsigned max_bounces;
 };
 
 /* Reads and packs the scene. On failure (reported) the job is empty; otherwise the caller frees it. */

@@ -53,11 +53,8 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
     unsigned band_height = 65536 / window->width + (unsigned)threads;
     size_t band_pixels = (size_t)window->width * band_height;
     double *values = calloc(band_pixels * 4, sizeof *values);
-    if (plan->bound_truncation && !image->truncation)
-        image->truncation = allocate_pixels(window, sizeof *image->truncation);
-    if (!values || (plan->bound_truncation && !image->truncation)) {
+    if (!values) {
         log_error("no memory for %u rows of %u pixels", band_height, window->width);
-        free(values);
         return STATUS_UNABLE;
     }
     struct reference_picture picture = {

@@ -13,25 +13,32 @@ const char *precision_name(enum precision precision)
 enum status render_repeatedly(render_once *render, void *renderer, const struct render_plan *plan,
                               struct rendering *rendering)
 {
+    struct image *image = &rendering->image;
     double *warm_ms = calloc(plan->repeat + 1, sizeof *warm_ms);
+    if (!warm_ms)
+        log_error("no memory for the times of %u renderings", plan->repeat);
     enum status status =
-        warm_ms ? image_create(plan->window.width, plan->window.height, &rendering->image) : STATUS_UNABLE;
+        warm_ms ? image_create(plan->window.width, plan->window.height, image) : STATUS_UNABLE;
     if (status == STATUS_DONE && plan->precision == PRECISION_DOUBLE)
-        status = image_widen(&rendering->image);
+        status = image_widen(image);
+    if (status == STATUS_DONE && plan->bound_truncation) {
+        image->truncation = allocate_pixels(&plan->window, sizeof *image->truncation);
+        status = image->truncation ? STATUS_DONE : STATUS_UNABLE;
+    }
     struct progress progress;
     uint64_t pixels = (uint64_t)plan->window.width * plan->window.height;
     progress_start(&progress, "rendering", pixels * (plan->repeat + 1), plan->quiet);
     if (status == STATUS_DONE)
-        status = render(renderer, plan, &rendering->image, &progress, &rendering->first_dispatch_ms);
+        status = render(renderer, plan, image, &progress, &rendering->first_dispatch_ms);
     for (unsigned i = 0; i < plan->repeat && status == STATUS_DONE; ++i)
-        status = render(renderer, plan, &rendering->image, &progress, &warm_ms[i]);
+        status = render(renderer, plan, image, &progress, &warm_ms[i]);
     progress_end(&progress);
     if (status == STATUS_DONE) {
         sort_doubles(warm_ms, plan->repeat);
         rendering->dispatch_ms =
             plan->repeat ? sorted_quantile(warm_ms, plan->repeat, 0.5) : rendering->first_dispatch_ms;
     } else {
-        image_destroy(&rendering->image);
+        image_destroy(image);
     }
     free(warm_ms);
     return status;

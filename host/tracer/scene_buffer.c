@@ -1,63 +1,62 @@
-#include "tracer/scene_buffer.h"
+#include "tracer/dispatch.h"
 
 #include <string.h>
 
-/* A part of the scene as it lies in memory; the buffer has room for at least one element. */
+/* A part of the scene as it lies in memory. */
 struct scene_part {
     const void *data;
-    size_t element_size, count;
+    size_t size;
 };
 
-static void list_parts(const struct packed_scene *scene, struct scene_part parts[SCENE_BINDINGS])
+static struct scene_part part_of(const struct packed_scene *scene, int i)
 {
-    parts[VIEW] = (struct scene_part){&scene->view, sizeof scene->view, 1};
-    parts[SPHERES] = (struct scene_part){scene->spheres, sizeof *scene->spheres, (size_t)scene->sphere_count};
-    parts[PLANES] = (struct scene_part){scene->planes, sizeof *scene->planes, (size_t)scene->plane_count};
-    parts[POINT_LIGHTS] = (struct scene_part){scene->point_lights, sizeof *scene->point_lights,
-                                              (size_t)scene->point_light_count};
-    parts[QUAD_LIGHTS] =
-        (struct scene_part){scene->quad_lights, sizeof *scene->quad_lights, (size_t)scene->quad_light_count};
+    const struct scene_part parts[SCENE_BINDINGS] = {
+        [VIEW] = {&scene->view, sizeof scene->view},
+        [SPHERES] = {scene->spheres, sizeof *scene->spheres * (size_t)scene->sphere_count},
+        [PLANES] = {scene->planes, sizeof *scene->planes * (size_t)scene->plane_count},
+        [POINT_LIGHTS] = {scene->point_lights,
+                          sizeof *scene->point_lights * (size_t)scene->point_light_count},
+        [QUAD_LIGHTS] = {scene->quad_lights, sizeof *scene->quad_lights * (size_t)scene->quad_light_count},
+    };
+    return parts[i];
 }
 
-static VkDeviceSize part_range(const struct scene_part parts[SCENE_BINDINGS], int i)
+/* The part's bytes, and room for at least one element more, which the shader's arrays have even where there
+ * is none. The next part may begin there: it is the largest offset alignment that Vulkan allows a device. */
+static VkDeviceSize part_range(const struct packed_scene *scene, int i)
 {
-    return parts[i].element_size * (parts[i].count + (i == VIEW ? 0 : 1));
+    enum { ALIGNMENT = 256 };
+    _Static_assert(sizeof(struct PackedQuadLight) <= ALIGNMENT / 2, "");
+    return (part_of(scene, i).size / ALIGNMENT + 1) * ALIGNMENT;
 }
 
 bool scene_needs_storage(const struct vulkan_context *context, const struct packed_scene *scene)
 {
-    struct scene_part parts[SCENE_BINDINGS];
     bool needed = false;
-    list_parts(scene, parts);
     for (int i = 0; i < SCENE_BINDINGS; ++i)
-        needed |= part_range(parts, i) > context->properties.limits.maxUniformBufferRange;
+        needed |= part_range(scene, i) > context->properties.limits.maxUniformBufferRange;
     return needed;
 }
 
 void scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_scene *scene)
 {
-    struct scene_part parts[SCENE_BINDINGS];
-    list_parts(scene, parts);
-    for (int i = 0; i < SCENE_BINDINGS; ++i)
-        if (parts[i].count > 0)
-            memcpy((unsigned char *)scene_buffer->buffer.mapped + scene_buffer->parts[i].offset,
-                   parts[i].data, parts[i].element_size * parts[i].count);
+    for (int i = 0; i < SCENE_BINDINGS; ++i) {
+        struct scene_part part = part_of(scene, i);
+        if (part.size > 0)
+            memcpy((unsigned char *)scene_buffer->buffer.mapped + scene_buffer->parts[i].offset, part.data,
+                   part.size);
+    }
 }
 
 enum status scene_buffer_create(struct vulkan_context *context, const struct packed_scene *scene,
                                 struct scene_buffer *scene_buffer)
 {
-    static const VkDeviceSize alignment = 256; /* the largest offset alignment that Vulkan allows a device */
-    struct scene_part parts[SCENE_BINDINGS];
     VkDeviceSize size = 0;
-    list_parts(scene, parts);
     for (int i = 0; i < SCENE_BINDINGS; ++i) {
-        scene_buffer->parts[i] = (VkDescriptorBufferInfo){.offset = size, .range = part_range(parts, i)};
-        size += (scene_buffer->parts[i].range + alignment - 1) / alignment * alignment;
+        scene_buffer->parts[i] = (VkDescriptorBufferInfo){.offset = size, .range = part_range(scene, i)};
+        size += scene_buffer->parts[i].range;
     }
-    enum status status = vulkan_buffer_create(
-        context, "scene", size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-        BUFFER_UPLOAD, &scene_buffer->buffer);
+    enum status status = vulkan_buffer_create(context, "scene", size, BUFFER_UPLOAD, &scene_buffer->buffer);
     if (status != STATUS_DONE)
         return status;
     for (int i = 0; i < SCENE_BINDINGS; ++i)

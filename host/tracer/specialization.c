@@ -22,12 +22,12 @@ static uint32_t plane_axis(layout_vec4 normal)
     return normal.x == 0 && normal.y == 0 ? 3 : 0;
 }
 
-struct specialization specialize(const struct packed_scene *scene, const struct group_shape *shape,
-                                 int output)
+struct specialization specialize(const struct vulkan_context *context, const struct packed_scene *scene,
+                                 const struct dispatch_size *size, int output)
 {
     struct specialization constants = {
-        .group_width = shape->width,
-        .group_height = shape->height,
+        .group_width = size->group_width,
+        .group_height = size->group_height,
         .spheres = scene->sphere_count,
         .planes = scene->plane_count,
         .point_lights = scene->point_light_count,
@@ -36,9 +36,14 @@ struct specialization specialize(const struct packed_scene *scene, const struct 
         .samples = scene->samples,
         .light_samples = scene->light_samples,
         .one_roughness = VK_TRUE,
-        .rows = shape->rows,
+        .rows = size->rows,
         .output = output,
+        .corrected_division = !context->arithmetic.division_exact,
+        .corrected_root = !context->arithmetic.root_exact,
         .prunes = scene->view.truncation.ALLOWANCE >= 0,
+        /* lavapipe's limit is 65535; what is left is for loops of the driver's own making */
+        .turn_limit = context->driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE ? 65000 : UINT32_MAX,
+        .resumable = size->stack_room > 0,
         .rays_escape = scene->view.between_mirrors.w != 0,
     };
     int last_sphere_order = -1;

@@ -1,16 +1,27 @@
 #ifndef VKWHITTED_TRACER_SPECIALIZATION_H
 #define VKWHITTED_TRACER_SPECIALIZATION_H
 
-#include <stdbool.h>
-#include <vulkan/vulkan.h>
-
 #include "packed_scene.h"
+#include "vulkan/context.h"
 
-/* How the shader's invocations cover the picture. */
-struct group_shape {
-    uint32_t width, height; /* invocations in a work group */
-    uint32_t rows;          /* pixels that an invocation renders, one below the other */
+/* How much a dispatch does, and how its invocations cover the picture. */
+struct dispatch_size {
+    uint32_t group_width, group_height; /* invocations in a work group */
+    uint32_t rows;                      /* pixels that an invocation renders, one below the other */
+    unsigned tile_pixels;               /* at most, in a tile */
+    unsigned samples;                   /* at most, of each pixel */
+    unsigned stack_room; /* entries of a pixel's stack saved for the next dispatch; 0: none is saved */
 };
+
+/* Of SavedPixel and SavedPath in resume.glsl, in double; float takes less. */
+enum { SAVED_PIXEL_BYTES = 192, SAVED_PATH_BYTES = 64 };
+
+/* A size that suits the device and the scene. */
+struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
+                                          const struct packed_scene *scene);
+
+/* The smaller one for ray trees that take several dispatches, see shaders/resume.glsl. */
+struct dispatch_size dispatch_size_resumable(struct dispatch_size size, const struct packed_scene *scene);
 
 /* The values of the shader's constants 0, 1, 2...; shaders/scene.glsl says what they mean. */
 struct specialization {
@@ -26,8 +37,9 @@ struct specialization {
     VkBool32 resumable, rays_escape;
 };
 
-/* Finds what the scene needs, so that the pipeline holds nothing else. */
-struct specialization specialize(const struct packed_scene *scene, const struct group_shape *shape,
-                                 int output);
+/* Finds what the scene and the device, whose arithmetic is known, need, so that the pipeline holds nothing
+ * else. */
+struct specialization specialize(const struct vulkan_context *context, const struct packed_scene *scene,
+                                 const struct dispatch_size *size, int output);
 
 #endif

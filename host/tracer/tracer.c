@@ -8,63 +8,22 @@
 #include "vulkan/probe.h"
 
 struct tracer {
-    struct vulkan_context *context;
-    const struct packed_scene *scene;
-    struct tracer_options options;
-    struct shader_choice choice;
-    struct scene_buffer scene_buffer;
+    struct dispatcher_info info;
     struct dispatcher dispatcher;
 };
 
 struct shader_choice tracer_shader(const struct vulkan_context *context, const struct packed_scene *scene,
                                    const struct tracer_options *options)
 {
-    static const enum whitted_variant with_events[] = {
-        [WHITTED_EXACT] = WHITTED_EXACT_EVENTS,
-        [WHITTED_CORRECTED] = WHITTED_CORRECTED_EVENTS,
-        [WHITTED_DOUBLE] = WHITTED_DOUBLE_EVENTS,
-        [WHITTED_FAST] = WHITTED_FAST, /* which records none */
-    };
     bool native = context->arithmetic.division_exact && context->arithmetic.root_exact;
     enum whitted_variant variant = options->double_precision ? WHITTED_DOUBLE
                                    : options->fast           ? WHITTED_FAST
                                    : native                  ? WHITTED_EXACT
                                                              : WHITTED_CORRECTED;
     return (struct shader_choice){
-        .variant = options->event_room > 0 ? with_events[variant] : variant,
+        .variant = options->event_room > 0 ? WHITTED_EXACT_EVENTS + variant : variant,
         .scene_in_storage = scene_needs_storage(context, scene),
     };
-}
-
-static struct specialization constants_of(const struct tracer *tracer, const struct packed_scene *scene,
-                                          const struct dispatch_size *size)
-{
-    const struct arithmetic *arithmetic = &tracer->context->arithmetic;
-    struct specialization constants = specialize(scene, &size->shape, tracer->options.output);
-    constants.corrected_division = !arithmetic->division_exact;
-    constants.corrected_root = !arithmetic->root_exact;
-    /* lavapipe's limit is 65535; what is left is for loops of the driver's own making */
-    constants.turn_limit =
-        tracer->context->driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE ? 65000 : UINT32_MAX;
-    constants.resumable = size->stack_room > 0;
-    return constants;
-}
-
-static enum status create_dispatcher(const struct tracer *tracer, struct dispatch_size size,
-                                     struct dispatcher *dispatcher)
-{
-    const struct shader_choice *choice = &tracer->choice;
-    const struct dispatcher_info info = {
-        .scene = &tracer->scene_buffer,
-        .scene_in_storage = choice->scene_in_storage,
-        .code = tracer->options.code.words ? tracer->options.code
-                                           : whitted_spirv(choice->variant, choice->scene_in_storage),
-        .constants = constants_of(tracer, tracer->scene, &size),
-        .size = size,
-        .double_precision = tracer->options.double_precision,
-        .event_room = tracer->options.event_room,
-    };
-    return dispatcher_create(tracer->context, &info, dispatcher);
 }
 
 enum status tracer_create(struct vulkan_context *context, const struct packed_scene *scene,
@@ -75,17 +34,18 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
         log_error("no memory for the tracer");
         return STATUS_UNABLE;
     }
-    *tracer = (struct tracer){.context = context, .scene = scene, .options = *options};
+    struct dispatcher_info *info = &tracer->info;
+    *info = (struct dispatcher_info){.context = context, .scene = scene, .options = *options};
     enum status status = options->fast ? STATUS_DONE : probe_require_exact(context);
     if (status == STATUS_DONE && options->double_precision && !context->has_float64) {
         log_error("%s has no double precision (shaderFloat64)", context->properties.deviceName);
         status = STATUS_UNABLE;
     }
-    tracer->choice = tracer_shader(context, scene, options);
+    info->choice = tracer_shader(context, scene, options);
     if (status == STATUS_DONE)
-        status = scene_buffer_create(context, scene, &tracer->scene_buffer);
+        status = scene_buffer_create(context, scene, &info->scene_buffer);
     if (status == STATUS_DONE)
-        status = create_dispatcher(tracer, dispatch_size_choose(context, scene), &tracer->dispatcher);
+        status = dispatcher_create(info, dispatch_size_choose(context, scene), &tracer->dispatcher);
     if (status != STATUS_DONE)
         tracer_destroy(pointer);
     return status;
@@ -98,18 +58,21 @@ void tracer_destroy(struct tracer **pointer)
     if (!tracer)
         return;
     dispatcher_destroy(&tracer->dispatcher);
-    vulkan_buffer_destroy(tracer->context, &tracer->scene_buffer.buffer);
+    vulkan_buffer_destroy(tracer->info.context, &tracer->info.scene_buffer.buffer);
     free(tracer);
 }
 
 bool tracer_update(struct tracer *tracer, const struct packed_scene *scene)
 {
-    const struct specialization built = constants_of(tracer, tracer->scene, &tracer->dispatcher.size);
-    const struct specialization needed = constants_of(tracer, scene, &tracer->dispatcher.size);
+    struct dispatcher_info *info = &tracer->info;
+    const struct dispatch_size *size = &tracer->dispatcher.size;
+    const int output = info->options.output;
+    const struct specialization built = specialize(info->context, info->scene, size, output);
+    const struct specialization needed = specialize(info->context, scene, size, output);
     if (memcmp(&built, &needed, sizeof built) != 0)
         return false;
-    scene_buffer_update(&tracer->scene_buffer, scene);
-    tracer->scene = scene;
+    scene_buffer_update(&info->scene_buffer, scene);
+    info->scene = scene;
     return true;
 }
 
@@ -117,8 +80,8 @@ bool tracer_update(struct tracer *tracer, const struct packed_scene *scene)
 static enum status become_resumable(struct tracer *tracer)
 {
     struct dispatcher resumable;
-    enum status status = create_dispatcher(
-        tracer, dispatch_size_resumable(tracer->dispatcher.size, tracer->scene), &resumable);
+    enum status status = dispatcher_create(
+        &tracer->info, dispatch_size_resumable(tracer->dispatcher.size, tracer->info.scene), &resumable);
     if (status != STATUS_DONE)
         return status;
     dispatcher_destroy(&tracer->dispatcher);
@@ -126,7 +89,7 @@ static enum status become_resumable(struct tracer *tracer)
     return STATUS_DONE;
 }
 
-/* Adds what the last dispatch has traced in so many pixels; the values do not tell the primary rays. No count
+/* Adds what the last dispatch has traced in so many pixels; the values do not tell primary rays. No count
  * wraps around: 2^32 rays would take the pixel's invocation minutes, and a driver ends it before, lavapipe
  * after 65535 turns of its loops, a graphics card's after some seconds. */
 static void add_rays(const struct dispatcher *dispatcher, size_t pixels, struct reference_rays *rays)
@@ -142,7 +105,7 @@ static void add_rays(const struct dispatcher *dispatcher, size_t pixels, struct 
 static enum status render_tile(struct tracer *tracer, struct window tile, struct reference_rays *rays,
                                double *dispatch_ms, bool *too_long)
 {
-    const struct packed_scene *scene = tracer->scene;
+    const struct packed_scene *scene = tracer->info.scene;
     const size_t pixels = (size_t)tile.width * tile.height;
     const uint32_t samples = (uint32_t)scene->samples, most = tracer->dispatcher.size.samples;
     enum status status = STATUS_DONE;
@@ -164,8 +127,6 @@ static enum status render_tile(struct tracer *tracer, struct window tile, struct
                 add_rays(&tracer->dispatcher, pixels, rays);
             portion.goes_on = 1;
         } while (mark == UNFINISHED);
-        if (rays)
-            rays->primary += pixels * (end - first);
         *too_long = mark <= TOO_LONG;
     }
     return status;
@@ -180,6 +141,10 @@ static void copy_row(const struct dispatcher *dispatcher, size_t first, size_t p
     const double *doubles = dispatcher->values;
     for (size_t i = 0; values->signatures && i < pixels; ++i)
         values->signatures[place + i] = integers[CHANNELS * (first + i) + 1];
+    for (size_t i = 0; values->charges && i < pixels; ++i)
+        values->charges[place + i] = dispatcher->value_type == VALUE_DOUBLE
+                                         ? (float)doubles[CHANNELS * (first + i)]
+                                         : floats[CHANNELS * (first + i)];
     if (!values->image)
         return;
     float *rgb = values->image->rgb + CHANNELS * place;
@@ -199,7 +164,7 @@ static enum status render_tiles(struct tracer *tracer, struct window window,
                                 double *dispatch_ms, bool *too_long)
 {
     /* an invocation traces all its rows, also those below the tile: whole ones, if possible */
-    const unsigned rows = tracer->dispatcher.size.shape.rows, most = tracer->dispatcher.size.tile_pixels;
+    const unsigned rows = tracer->dispatcher.size.rows, most = tracer->dispatcher.size.tile_pixels;
     unsigned tile_width = window.width < 1024 ? window.width : 1024;
     if (tile_width > most / rows)
         tile_width = most > rows ? most / rows : 1;
@@ -207,7 +172,8 @@ static enum status render_tiles(struct tracer *tracer, struct window window,
     tile_height -= tile_height > rows ? tile_height % rows : 0;
     *dispatch_ms = 0;
     if (values->rays)
-        *values->rays = (struct reference_rays){0};
+        *values->rays = (struct reference_rays){.primary = (uint64_t)window.width * window.height *
+                                                           (uint64_t)tracer->info.scene->samples};
     for (unsigned y = 0; y < window.height; y += tile_height) {
         for (unsigned x = 0; x < window.width; x += tile_width) {
             struct window tile = {
@@ -245,7 +211,7 @@ enum status tracer_render_values(struct tracer *tracer, struct window window,
     if (status != STATUS_DONE || !too_long)
         return status;
     log_error("%s ends the shader's loops after 65535 turns, too early for so many light samples",
-              tracer->context->properties.deviceName);
+              tracer->info.context->properties.deviceName);
     return STATUS_UNABLE;
 }
 
@@ -258,7 +224,7 @@ enum status tracer_render(struct tracer *tracer, struct window window, struct im
 
 uint32_t tracer_events(const struct tracer *tracer, const void **events)
 {
-    const struct event_block *block = tracer->dispatcher.events.mapped;
+    const struct event_block *block = tracer->dispatcher.buffers[EVENTS].mapped;
     *events = block + 1;
     return block->count;
 }

@@ -10,14 +10,6 @@
 /* The compute pipeline for one packed scene, specialised to it. */
 struct tracer;
 
-struct tracer_options {
-    bool double_precision; /* exact mode only, on a device with fp64 */
-    bool fast;             /* contraction and built-in functions allowed */
-    int output;            /* OUTPUT_ of scene_layout.h */
-    uint32_t event_room;   /* 0: no events are recorded; exact mode only */
-    struct spirv code;     /* of the shader that tracer_shader() tells; empty: the built-in one */
-};
-
 /* Which of the shader's variants a tracer needs, on a device whose arithmetic is known. */
 struct shader_choice tracer_shader(const struct vulkan_context *context, const struct packed_scene *scene,
                                    const struct tracer_options *options);
@@ -43,6 +35,7 @@ struct tracer_values {
     struct image *image; /* of the window's size; gets the values in double precision too, if it has room */
     struct reference_rays *rays; /* OUTPUT_RAYS: the sums over the window */
     uint32_t *signatures;        /* OUTPUT_SIGNATURE: a pixel each */
+    float *charges;              /* OUTPUT_TRUNCATION: a pixel each */
 };
 
 /* Renders the window of the picture. *dispatch_ms gets the time that the device spent (device timestamps

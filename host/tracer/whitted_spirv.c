@@ -1,4 +1,4 @@
-#include "tracer/whitted_spirv.h"
+#include "tracer/interface.h"
 
 #include "whitted_corrected.h"
 #include "whitted_corrected_events.h"
@@ -17,23 +17,18 @@
 
 struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage)
 {
-#define VARIANT(name)                                                                                        \
-    {                                                                                                        \
-        {name, sizeof name},                                                                                 \
-        {                                                                                                    \
-            name##_storage, sizeof name##_storage                                                            \
-        }                                                                                                    \
-    }
+#define CODE(name) name, sizeof name
     static const struct spirv variants[][2] = {
-        [WHITTED_EXACT] = VARIANT(whitted_exact),
-        [WHITTED_CORRECTED] = VARIANT(whitted_corrected),
-        [WHITTED_DOUBLE] = VARIANT(whitted_double),
-        [WHITTED_FAST] = VARIANT(whitted_fast),
-        [WHITTED_EXACT_EVENTS] = VARIANT(whitted_exact_events),
-        [WHITTED_CORRECTED_EVENTS] = VARIANT(whitted_corrected_events),
-        [WHITTED_DOUBLE_EVENTS] = VARIANT(whitted_double_events),
+        [WHITTED_EXACT] = {{CODE(whitted_exact)}, {CODE(whitted_exact_storage)}},
+        [WHITTED_CORRECTED] = {{CODE(whitted_corrected)}, {CODE(whitted_corrected_storage)}},
+        [WHITTED_DOUBLE] = {{CODE(whitted_double)}, {CODE(whitted_double_storage)}},
+        [WHITTED_FAST] = {{CODE(whitted_fast)}, {CODE(whitted_fast_storage)}},
+        [WHITTED_EXACT_EVENTS] = {{CODE(whitted_exact_events)}, {CODE(whitted_exact_events_storage)}},
+        [WHITTED_CORRECTED_EVENTS] = {{CODE(whitted_corrected_events)},
+                                      {CODE(whitted_corrected_events_storage)}},
+        [WHITTED_DOUBLE_EVENTS] = {{CODE(whitted_double_events)}, {CODE(whitted_double_events_storage)}},
     };
-#undef VARIANT
+#undef CODE
     return variants[variant][scene_in_storage];
 }
 

@@ -27,15 +27,15 @@ static uint32_t find_memory_type(const struct vulkan_context *context, uint32_t 
 }
 
 enum status vulkan_buffer_create(struct vulkan_context *context, const char *name, VkDeviceSize size,
-                                 VkBufferUsageFlags usage, enum buffer_memory memory,
-                                 struct vulkan_buffer *buffer)
+                                 enum buffer_memory memory, struct vulkan_buffer *buffer)
 {
     *buffer = (struct vulkan_buffer){0};
     VULKAN_CALL(vkCreateBuffer, context->device,
                 &(VkBufferCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                     .size = size,
-                    .usage = usage,
+                    .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                 },
                 NULL, &buffer->buffer);
     vulkan_name(context, VK_OBJECT_TYPE_BUFFER, (uint64_t)buffer->buffer, name);

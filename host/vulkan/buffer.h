@@ -16,10 +16,10 @@ struct vulkan_buffer {
     void *mapped; /* for the host, without flushes; NULL: the host does not see it */
 };
 
-/* Makes a buffer, its bytes undefined. On failure (reported) *buffer is empty. The name is for debuggers. */
+/* Makes a buffer of any usage, its bytes undefined. On failure (reported) *buffer is empty. The name is for
+ * debuggers. */
 enum status vulkan_buffer_create(struct vulkan_context *context, const char *name, VkDeviceSize size,
-                                 VkBufferUsageFlags usage, enum buffer_memory memory,
-                                 struct vulkan_buffer *buffer);
+                                 enum buffer_memory memory, struct vulkan_buffer *buffer);
 
 /* Destroys a buffer that the device no longer uses, or nothing, and empties *buffer. */
 void vulkan_buffer_destroy(struct vulkan_context *context, struct vulkan_buffer *buffer);

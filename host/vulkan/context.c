@@ -10,33 +10,32 @@
 
 static const char validation_layer[] = "VK_LAYER_KHRONOS_validation";
 
+#define NAMED(constant) constant, #constant
+
 const char *vulkan_result_name(VkResult result)
 {
-#define NAME(name)                                                                                           \
-    case name:                                                                                               \
-        return #name
-    switch (result) {
-        NAME(VK_ERROR_OUT_OF_HOST_MEMORY);
-        NAME(VK_ERROR_OUT_OF_DEVICE_MEMORY);
-        NAME(VK_ERROR_INITIALIZATION_FAILED);
-        NAME(VK_ERROR_DEVICE_LOST);
-        NAME(VK_ERROR_MEMORY_MAP_FAILED);
-        NAME(VK_ERROR_LAYER_NOT_PRESENT);
-        NAME(VK_ERROR_EXTENSION_NOT_PRESENT);
-        NAME(VK_ERROR_FEATURE_NOT_PRESENT);
-        NAME(VK_ERROR_INCOMPATIBLE_DRIVER);
-        NAME(VK_ERROR_TOO_MANY_OBJECTS);
-        NAME(VK_INCOMPLETE);
-        NAME(VK_NOT_READY);
-        NAME(VK_TIMEOUT);
-        NAME(VK_SUBOPTIMAL_KHR);
-        NAME(VK_ERROR_OUT_OF_DATE_KHR);
-        NAME(VK_ERROR_SURFACE_LOST_KHR);
-        NAME(VK_ERROR_NATIVE_WINDOW_IN_USE_KHR);
-    default:
-        return "VkResult not known to vkwhitted";
-    }
-#undef NAME
+    static const struct {
+        VkResult result;
+        const char *name;
+    } names[] = {
+        {NAMED(VK_ERROR_OUT_OF_HOST_MEMORY)},
+        {NAMED(VK_ERROR_OUT_OF_DEVICE_MEMORY)},
+        {NAMED(VK_ERROR_INITIALIZATION_FAILED)},
+        {NAMED(VK_ERROR_DEVICE_LOST)},
+        {NAMED(VK_ERROR_MEMORY_MAP_FAILED)},
+        {NAMED(VK_ERROR_LAYER_NOT_PRESENT)},
+        {NAMED(VK_ERROR_EXTENSION_NOT_PRESENT)},
+        {NAMED(VK_ERROR_FEATURE_NOT_PRESENT)},
+        {NAMED(VK_ERROR_INCOMPATIBLE_DRIVER)},
+        {NAMED(VK_ERROR_TOO_MANY_OBJECTS)},
+        {NAMED(VK_INCOMPLETE)},
+        {NAMED(VK_NOT_READY)},
+        {NAMED(VK_TIMEOUT)},
+    };
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
+        if (names[i].result == result)
+            return names[i].name;
+    return "VkResult not known to vkwhitted";
 }
 
 void vulkan_name(struct vulkan_context *context, VkObjectType type, uint64_t handle, const char *name)
@@ -102,8 +101,8 @@ static enum status create_instance(struct vulkan_context *context, const struct 
                 },
             .enabledLayerCount = validate ? 1 : 0,
             .ppEnabledLayerNames = (const char *[]){validation_layer},
-            .enabledExtensionCount = 1,
-            .ppEnabledExtensionNames = (const char *[]){VK_EXT_DEBUG_UTILS_EXTENSION_NAME}, /* which the loader always has */
+            .enabledExtensionCount = 1, /* which the loader always has */
+            .ppEnabledExtensionNames = (const char *[]){VK_EXT_DEBUG_UTILS_EXTENSION_NAME},
         },
         NULL, &context->instance);
     if (result == VK_ERROR_LAYER_NOT_PRESENT)
@@ -115,8 +114,6 @@ static enum status create_instance(struct vulkan_context *context, const struct 
     if (result != VK_SUCCESS)
         return STATUS_UNABLE;
     context->set_object_name = FIND(context, vkSetDebugUtilsObjectNameEXT);
-    context->begin_label = FIND(context, vkCmdBeginDebugUtilsLabelEXT);
-    context->end_label = FIND(context, vkCmdEndDebugUtilsLabelEXT);
     PFN_vkCreateDebugUtilsMessengerEXT create_messenger = FIND(context, vkCreateDebugUtilsMessengerEXT);
     if (validate)
         VULKAN_CALL(create_messenger, context->instance, &messenger_info, NULL, &context->messenger);
@@ -126,8 +123,26 @@ error:
     return STATUS_UNABLE;
 }
 
-/* Learns what the device is and has. Higher is better; 0: it cannot be used. */
-static int inspect_device(struct vulkan_context *context, VkPhysicalDevice device)
+static const struct device_type {
+    const char *name;
+    int score; /* the best is chosen */
+} device_types[] = {
+    [VK_PHYSICAL_DEVICE_TYPE_OTHER] = {"other", 1},
+    [VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU] = {"integrated GPU", 4},
+    [VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU] = {"discrete GPU", 5},
+    [VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU] = {"virtual GPU", 3},
+    [VK_PHYSICAL_DEVICE_TYPE_CPU] = {"CPU", 2},
+};
+
+static struct device_type device_type(const struct vulkan_context *context)
+{
+    const size_t type = (size_t)context->properties.deviceType;
+    return type < sizeof device_types / sizeof *device_types ? device_types[type]
+                                                             : (struct device_type){"unknown", 1};
+}
+
+/* Learns what the device is and has. Returns whether it can be used. */
+static bool inspect_device(struct vulkan_context *context, VkPhysicalDevice device)
 {
     VkPhysicalDeviceSubgroupProperties subgroup = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES,
@@ -154,81 +169,58 @@ static int inspect_device(struct vulkan_context *context, VkPhysicalDevice devic
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families);
     context->queue_family = UINT32_MAX;
     for (uint32_t i = count; i-- > 0;) {
-        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT)) {
+        if (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) {
             context->queue_family = i;
             context->timestamp_bits = families[i].timestampValidBits;
         }
     }
-    if (context->properties.apiVersion < VK_API_VERSION_1_2 || context->queue_family == UINT32_MAX)
-        return 0;
-    static const int scores[] = {
-        [VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU] = 5, [VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU] = 4,
-        [VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU] = 3,  [VK_PHYSICAL_DEVICE_TYPE_CPU] = 2,
-        [VK_PHYSICAL_DEVICE_TYPE_OTHER] = 1,
-    };
-    const size_t type = (size_t)context->properties.deviceType;
-    return type < sizeof scores / sizeof *scores ? scores[type] : 1;
+    return context->properties.apiVersion >= VK_API_VERSION_1_2 && context->queue_family != UINT32_MAX;
 }
 
 static bool device_matches(const char *choice, uint32_t index, const char *name)
 {
     unsigned long number;
-    if (!choice)
-        return true;
-    if (parse_unsigned(choice, strlen(choice), UINT32_MAX, &number))
+    if (choice && parse_unsigned(choice, strlen(choice), UINT32_MAX, &number))
         return number == index;
-    return strcasestr(name, choice) != NULL;
+    return !choice || strcasestr(name, choice) != NULL;
 }
 
-/* The number of the best device that matches the options, or count (reported). */
-static uint32_t choose_device(struct vulkan_context *context, const struct vulkan_options *options,
-                              const VkPhysicalDevice *devices, uint32_t count)
+/* Finds the best device that matches the options. On failure (reported) chosen_device is device_count. */
+static enum status choose_device(struct vulkan_context *context, const struct vulkan_options *options)
 {
-    uint32_t chosen = count;
     int best_score = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-        int score = inspect_device(context, devices[i]);
-        if (score > best_score && device_matches(options->device, i, context->properties.deviceName)) {
-            chosen = i;
-            best_score = score;
+    context->chosen_device = context->device_count;
+    for (uint32_t i = 0; i < context->device_count; ++i)
+        if (inspect_device(context, context->devices[i]) && device_type(context).score > best_score &&
+            device_matches(options->device, i, context->properties.deviceName)) {
+            context->chosen_device = i;
+            best_score = device_type(context).score;
         }
-    }
-    if (chosen == count && options->device)
+    if (context->chosen_device < context->device_count)
+        return STATUS_DONE;
+    if (options->device)
         log_error("--device %s: no usable device of this number or name; 'vkwhitted devices' lists them",
                   options->device);
-    else if (chosen == count)
+    else
         log_error("no device offers Vulkan 1.2 and a compute queue; 'vkwhitted devices' lists what is there");
-    return chosen;
+    return options->device ? STATUS_REFUSED : STATUS_UNABLE;
 }
 
-/* The machine's devices, and the number of the one that the options choose (count, reported: none). */
-struct device_list {
-    VkPhysicalDevice *devices; /* to be freed */
-    uint32_t count, chosen;
-};
-
 /* Makes a context without an open device. On failure (reported) there is none. */
-static enum status create_context(const struct vulkan_options *options, struct vulkan_context **pointer,
-                                  struct device_list *list)
+static enum status create_context(const struct vulkan_options *options, struct vulkan_context **pointer)
 {
     struct vulkan_context *context = *pointer = calloc(1, sizeof *context);
-    *list = (struct device_list){0};
     if (!context)
         log_error("no memory for the Vulkan context");
     if (!context || create_instance(context, options) != STATUS_DONE)
         goto error;
-    VULKAN_CALL(vkEnumeratePhysicalDevices, context->instance, &list->count, NULL);
-    list->devices = calloc(list->count + 1, sizeof *list->devices);
-    if (!list->devices || list->count == 0) {
-        report_no_device();
-        goto error;
-    }
-    VULKAN_CALL(vkEnumeratePhysicalDevices, context->instance, &list->count, list->devices);
-    list->chosen = choose_device(context, options, list->devices, list->count);
-    return STATUS_DONE;
+    context->device_count = VULKAN_MOST_DEVICES;
+    VULKAN_CALL(vkEnumeratePhysicalDevices, context->instance, &context->device_count, context->devices);
+    if (context->device_count > 0)
+        return STATUS_DONE;
+    report_no_device();
 
 error:
-    free(list->devices);
     vulkan_context_destroy(pointer);
     return STATUS_UNABLE;
 }
@@ -266,17 +258,14 @@ error:
 
 enum status vulkan_context_create(const struct vulkan_options *options, struct vulkan_context **pointer)
 {
-    struct device_list list;
-    enum status status = create_context(options, pointer, &list);
+    enum status status = create_context(options, pointer);
     if (status != STATUS_DONE)
         return status;
-    if (list.chosen < list.count) {
-        inspect_device(*pointer, list.devices[list.chosen]);
+    status = choose_device(*pointer, options);
+    if (status == STATUS_DONE) {
+        inspect_device(*pointer, (*pointer)->devices[(*pointer)->chosen_device]);
         status = open_device(*pointer);
-    } else {
-        status = options->device ? STATUS_REFUSED : STATUS_UNABLE;
     }
-    free(list.devices);
     if (status != STATUS_DONE)
         vulkan_context_destroy(pointer);
     return status;
@@ -311,15 +300,14 @@ enum status vulkan_context_destroy(struct vulkan_context **pointer)
 }
 
 /* The device that was inspected last. */
-static void print_device(const struct vulkan_context *context, uint32_t index, bool chosen, bool usable)
+static void print_device(const struct vulkan_context *context, uint32_t index, bool usable)
 {
-    static const char *const types[] = {"other", "integrated GPU", "discrete GPU", "virtual GPU", "CPU"};
     const VkPhysicalDeviceProperties *properties = &context->properties;
     const VkPhysicalDeviceLimits *limits = &properties->limits;
-    printf("%c %" PRIu32 "  %s\n", chosen ? '*' : ' ', index, properties->deviceName);
-    printf("      type            %s\n", (size_t)properties->deviceType < sizeof types / sizeof *types
-                                             ? types[properties->deviceType]
-                                             : "unknown");
+    const uint32_t *group = limits->maxComputeWorkGroupSize;
+    printf("%c %" PRIu32 "  %s\n", index == context->chosen_device ? '*' : ' ', index,
+           properties->deviceName);
+    printf("      type            %s\n", device_type(context).name);
     printf("      driver          %s %s\n", context->driver.driverName, context->driver.driverInfo);
     printf("      Vulkan          %u.%u.%u%s\n", VK_API_VERSION_MAJOR(properties->apiVersion),
            VK_API_VERSION_MINOR(properties->apiVersion), VK_API_VERSION_PATCH(properties->apiVersion),
@@ -328,28 +316,26 @@ static void print_device(const struct vulkan_context *context, uint32_t index, b
     printf("      storage buffer  %" PRIu32 " bytes\n", limits->maxStorageBufferRange);
     printf("      uniform buffer  %" PRIu32 " bytes\n", limits->maxUniformBufferRange);
     printf("      group           %" PRIu32 " x %" PRIu32 " x %" PRIu32 ", %" PRIu32 " invocations\n",
-           limits->maxComputeWorkGroupSize[0], limits->maxComputeWorkGroupSize[1],
-           limits->maxComputeWorkGroupSize[2], limits->maxComputeWorkGroupInvocations);
+           group[0], group[1], group[2], limits->maxComputeWorkGroupInvocations);
 }
 
 enum status vulkan_print_devices(const struct vulkan_options *options,
                                  enum status (*print_more)(struct vulkan_context *))
 {
     struct vulkan_context *context;
-    struct device_list list;
-    enum status status = create_context(options, &context, &list);
-    for (uint32_t i = 0; i < list.count && status == STATUS_DONE; ++i) {
-        bool usable = inspect_device(context, list.devices[i]) > 0;
-        print_device(context, i, i == list.chosen, usable);
+    enum status status = create_context(options, &context);
+    if (status != STATUS_DONE)
+        return status;
+    const enum status chosen = choose_device(context, options);
+    for (uint32_t i = 0; i < context->device_count && status == STATUS_DONE; ++i) {
+        bool usable = inspect_device(context, context->devices[i]);
+        print_device(context, i, usable);
         if (usable)
             status = open_device(context);
         if (usable && status == STATUS_DONE)
             status = print_more(context);
         close_device(context);
     }
-    if (status == STATUS_DONE && list.chosen == list.count)
-        status = options->device ? STATUS_REFUSED : STATUS_UNABLE;
-    free(list.devices);
     enum status closed = vulkan_context_destroy(&context);
-    return status == STATUS_DONE ? closed : status;
+    return status != STATUS_DONE ? status : chosen != STATUS_DONE ? chosen : closed;
 }

@@ -20,11 +20,15 @@ struct arithmetic {
     char flaw[160]; /* where the basics are not exact: an example */
 };
 
+enum { VULKAN_MOST_DEVICES = 64 };
+
 /* An instance and one device with a compute queue. */
 struct vulkan_context {
     VkInstance instance;
     VkDebugUtilsMessengerEXT messenger;
-    VkPhysicalDevice physical_device;
+    VkPhysicalDevice devices[VULKAN_MOST_DEVICES]; /* of the machine */
+    uint32_t device_count, chosen_device;
+    VkPhysicalDevice physical_device; /* the one that the following is of */
     VkPhysicalDeviceProperties properties;
     VkPhysicalDeviceDriverProperties driver;
     VkPhysicalDeviceMemoryProperties memory;
@@ -36,11 +40,7 @@ struct vulkan_context {
     VkQueue queue;
     struct arithmetic arithmetic; /* not known before probe_arithmetic() */
     atomic_uint validation_messages;
-
-    /* Of VK_EXT_debug_utils. */
     PFN_vkSetDebugUtilsObjectNameEXT set_object_name;
-    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label;
-    PFN_vkCmdEndDebugUtilsLabelEXT end_label;
 };
 
 struct vulkan_options {

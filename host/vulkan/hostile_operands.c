@@ -1,10 +1,10 @@
-#include "vulkan/hostile_operands.h"
+#include "vulkan/probe.h"
 
 #include <string.h>
 
 enum { LEAST_EXPONENT = 1, BIAS = 127, GREATEST_EXPONENT = 254 };
 
-uint32_t random_bits(uint64_t *state)
+uint32_t random_word(uint64_t *state)
 {
     uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
     z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
@@ -23,13 +23,13 @@ static float assemble(uint32_t mantissa, uint32_t exponent)
 
 static uint32_t random_between(uint64_t *state, uint32_t least, uint32_t greatest)
 {
-    return least + random_bits(state) % (greatest - least + 1);
+    return least + random_word(state) % (greatest - least + 1);
 }
 
 static float random_float(uint64_t *state, uint32_t least_exponent, uint32_t greatest_exponent)
 {
-    float value = assemble(random_bits(state), random_between(state, least_exponent, greatest_exponent));
-    return random_bits(state) & 1 ? value : -value;
+    float value = assemble(random_word(state), random_between(state, least_exponent, greatest_exponent));
+    return random_word(state) & 1 ? value : -value;
 }
 
 /* Modulo 2^32, of an odd number; each of Newton's steps doubles the right bits, of which x has three. */
@@ -47,7 +47,7 @@ static void hard_quotient(uint64_t *state, float *a, float *b)
 {
     for (;;) {
         uint32_t divisor = random_between(state, UINT32_C(1) << 23, (UINT32_C(1) << 24) - 1) | 1;
-        uint32_t above = random_bits(state) & 1;
+        uint32_t above = random_word(state) & 1;
         uint32_t middle = (above ? 0 - inverse(divisor) : inverse(divisor)) & 0xffffff;
         uint64_t product = (UINT64_C(0x1000000) + middle) * divisor;
         uint32_t dividend = (uint32_t)((above ? product + 1 : product - 1) >> 24);
@@ -66,9 +66,9 @@ static void hard_quotient(uint64_t *state, float *a, float *b)
 static float hard_root(uint64_t *state)
 {
     for (;;) {
-        uint32_t d = (random_bits(state) % 64 - 32) * 2;
-        uint32_t s = random_bits(state);
-        uint32_t shift = 23 + (random_bits(state) & 1);
+        uint32_t d = (random_word(state) % 64 - 32) * 2;
+        uint32_t s = random_word(state);
+        uint32_t shift = 23 + (random_word(state) & 1);
         for (int i = 0; i < 6; ++i)
             s -= (s * s + s + d) * inverse(2 * s + 1);
         s = (s & 0x7fffff) | UINT32_C(1) << 23 | (shift == 24 ? s & 0x800000 : 0);
@@ -87,9 +87,9 @@ static float edge(uint64_t *state)
                                          0x400000, 0x400001, 0x555555, 0x7ffffe, 0x7fffff};
     static const uint32_t exponents[] = {LEAST_EXPONENT,   2, 24, 64, 126, BIAS, 128, 129, 190, 253,
                                          GREATEST_EXPONENT};
-    float value = assemble(mantissas[random_bits(state) % (sizeof mantissas / sizeof *mantissas)],
-                           exponents[random_bits(state) % (sizeof exponents / sizeof *exponents)]);
-    return random_bits(state) & 1 ? value : -value;
+    float value = assemble(mantissas[random_word(state) % (sizeof mantissas / sizeof *mantissas)],
+                           exponents[random_word(state) % (sizeof exponents / sizeof *exponents)]);
+    return random_word(state) & 1 ? value : -value;
 }
 
 void hostile_operands(uint64_t seed, struct operands *operands, size_t count)

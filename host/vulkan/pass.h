@@ -1,7 +1,7 @@
 #ifndef VKWHITTED_VULKAN_PASS_H
 #define VKWHITTED_VULKAN_PASS_H
 
-#include "vulkan/command.h"
+#include "vulkan/context.h"
 
 /* A compiled shader. */
 struct spirv {
@@ -32,7 +32,7 @@ struct pass_info {
     uint32_t push_constant_size; /* bytes, perhaps 0 */
 };
 
-/* A compute shader with its buffers: descriptor set, pipeline layout and pipeline. */
+/* A compute shader with its buffers, and the commands that run it. */
 struct vulkan_pass {
     struct vulkan_context *context;
     VkDescriptorSetLayout set_layout;
@@ -41,6 +41,18 @@ struct vulkan_pass {
     VkDescriptorSet set;
     VkPipeline pipeline;
     uint32_t push_constant_size;
+    VkCommandPool command_pool;
+    VkCommandBuffer commands;
+    VkFence fence;
+    VkQueryPool timestamps; /* of the dispatch; VK_NULL_HANDLE: the queue has none */
+};
+
+/* What to run. */
+struct pass_dispatch {
+    const void *push_constants;
+    uint32_t groups_x, groups_y;
+    VkBuffer copy_from, copy_to; /* afterwards; VK_NULL_HANDLE: nothing is copied */
+    VkDeviceSize copy_size;      /* bytes */
 };
 
 /* Builds the pass; nothing of info is needed afterwards but the buffers. On failure (reported) *pass is
@@ -51,8 +63,23 @@ enum status vulkan_pass_create(struct vulkan_context *context, const struct pass
 /* Destroys a pass that the device no longer uses, or nothing, and empties *pass. */
 void vulkan_pass_destroy(struct vulkan_pass *pass);
 
-/* Records the command's only dispatch, of so many work groups, with these push constants. */
-void vulkan_pass_record(const struct vulkan_pass *pass, const struct vulkan_command *command,
-                        const void *push_constants, uint32_t groups_x, uint32_t groups_y);
+/* Runs the pass and waits for it. It sees what was written on the device before, and the host what it writes.
+ * *device_ms is the time that the dispatch took by the device's timestamps, or, where there are none, since
+ * the submission. Failures are reported. */
+enum status vulkan_pass_run(struct vulkan_pass *pass, const struct pass_dispatch *dispatch,
+                            double *device_ms);
+
+/* A dispatch with an input (binding 0 of set 0) and an output (binding 1), both storage buffers. */
+struct compute_job {
+    struct pass_info pass; /* but for the bindings */
+    const void *input;
+    size_t input_size; /* bytes */
+    void *output;
+    size_t output_size;
+    uint32_t groups;
+};
+
+/* Runs the job once and waits for it. Failures are reported. */
+enum status vulkan_compute(struct vulkan_context *context, const struct compute_job *job);
 
 #endif

@@ -3,13 +3,11 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "arithmetic_probe.h"
 #include "base/clock.h"
-#include "vulkan/compute.h"
-#include "vulkan/hostile_operands.h"
+#include "vulkan/pass.h"
 
 enum { PROBES = 1 << 16, GROUP = 64 };
 static const uint64_t seed = 1980;
@@ -30,15 +28,7 @@ static bool counts(float x)
     return x == 0 || (fabsf(x) > FLT_MIN && fabsf(x) <= FLT_MAX);
 }
 
-static void note_flaw(struct arithmetic *found, const char *operation, const struct operands *on,
-                      float result, float expected)
-{
-    if (found->basics_exact)
-        snprintf(found->flaw, sizeof found->flaw, "%s with a = %a, b = %a, c = %a is %a instead of %a",
-                 operation, (double)on->a, (double)on->b, (double)on->c, (double)result, (double)expected);
-    found->basics_exact = false;
-}
-
+/* Notes the first flaw. */
 static void judge_basics(const struct operands *on, const struct results *results, struct arithmetic *found)
 {
     const float a = on->a, b = on->b, c = on->c, ab = a * b, bc = b * c, ca = c * a;
@@ -55,9 +45,14 @@ static void judge_basics(const struct operands *on, const struct results *result
         {"a * b + b * c + c * a", results->dot, ab + bc + ca,
          counts(ab) && counts(bc) && counts(ca) && counts(ab + bc)},
     };
-    for (size_t i = 0; i < sizeof basics / sizeof *basics; ++i)
-        if (basics[i].counts && counts(basics[i].expected) && !same(basics[i].result, basics[i].expected))
-            note_flaw(found, basics[i].operation, on, basics[i].result, basics[i].expected);
+    for (size_t i = 0; i < sizeof basics / sizeof *basics && found->basics_exact; ++i) {
+        const float result = basics[i].result, expected = basics[i].expected;
+        if (!basics[i].counts || !counts(expected) || same(result, expected))
+            continue;
+        found->basics_exact = false;
+        snprintf(found->flaw, sizeof found->flaw, "%s with a = %a, b = %a, c = %a is %a instead of %a",
+                 basics[i].operation, (double)a, (double)b, (double)c, (double)result, (double)expected);
+    }
 }
 
 static void judge(const struct operands *operands, const struct results *results, struct arithmetic *found)
@@ -91,29 +86,23 @@ enum status probe_arithmetic(struct vulkan_context *context)
 {
     if (context->arithmetic.known)
         return STATUS_DONE;
+    static struct operands operands[PROBES];
+    static struct results results[PROBES];
     double start = clock_ms();
-    struct operands *operands = calloc(PROBES, sizeof *operands);
-    struct results *results = calloc(PROBES, sizeof *results);
-    enum status status = STATUS_UNABLE;
-    if (operands && results) {
-        hostile_operands(seed, operands, PROBES);
-        status = vulkan_compute(context, &(struct compute_job){
-                                             .code = {arithmetic_probe, sizeof arithmetic_probe},
-                                             .input = operands,
-                                             .input_size = PROBES * sizeof *operands,
-                                             .output = results,
-                                             .output_size = PROBES * sizeof *results,
-                                             .groups = PROBES / GROUP,
-                                         });
-    } else {
-        log_error("no memory for %d operands", PROBES);
-    }
+    hostile_operands(seed, operands, PROBES);
+    enum status status =
+        vulkan_compute(context, &(struct compute_job){
+                                    .pass = {"probe", {arithmetic_probe, sizeof arithmetic_probe}},
+                                    .input = operands,
+                                    .input_size = sizeof operands,
+                                    .output = results,
+                                    .output_size = sizeof results,
+                                    .groups = PROBES / GROUP,
+                                });
     if (status == STATUS_DONE) {
         judge(operands, results, &context->arithmetic);
         log_info("arithmetic probed in %.1f ms", clock_ms() - start);
     }
-    free(operands);
-    free(results);
     return status;
 }
 

@@ -39,10 +39,10 @@ static struct job_options reduced_options(const struct job_options *options, con
     struct job_options reduced = *options;
     reduced.width = ((options->width ? options->width : scene->width) + reduction - 1) / reduction;
     reduced.height = ((options->height ? options->height : scene->height) + reduction - 1) / reduction;
-    reduced.crop.x /= reduction;
-    reduced.crop.y /= reduction;
-    reduced.crop.width = (reduced.crop.width + reduction - 1) / reduction;
-    reduced.crop.height = (reduced.crop.height + reduction - 1) / reduction;
+    reduced.plan.window.x /= reduction;
+    reduced.plan.window.y /= reduction;
+    reduced.plan.window.width = (reduced.plan.window.width + reduction - 1) / reduction;
+    reduced.plan.window.height = (reduced.plan.window.height + reduction - 1) / reduction;
     return reduced;
 }
 
@@ -90,8 +90,8 @@ static struct picture *prepare(struct session *session, unsigned reduction)
 static struct tracer_options tracer_options(const struct session *session)
 {
     const struct job_options *job = &session->options->job;
-    return (struct tracer_options){.double_precision = job->precision == PRECISION_DOUBLE,
-                                   .fast = job->fast,
+    return (struct tracer_options){.double_precision = job->plan.precision == PRECISION_DOUBLE,
+                                   .fast = job->plan.fast,
                                    .code = {session->code, session->code_size}};
 }
 

@@ -157,7 +157,7 @@ enum status watch(const struct watch_options *options)
         status = display_connect();
     if (status == STATUS_DONE)
         status = vulkan_context_create(&options->vulkan, &session.context);
-    if (status == STATUS_DONE && !options->job.fast)
+    if (status == STATUS_DONE && !options->job.plan.fast)
         status = probe_require_exact(session.context);
     if (status == STATUS_DONE)
         status = follow(&session);

@@ -8,7 +8,7 @@
 enum { SCENE_BINDINGS = 5, INPUTS = SCENE_BINDINGS, OUTPUTS, BINDINGS };
 enum { GROUP = 64 }; /* invocations, as in functions.comp */
 enum { CORRECTED_DIVISION = 22, CORRECTED_ROOT };
-enum { SCENE_BYTES = 1024 };              /* more than one view, or three elements of any kind */
+enum { SCENE_BYTES = 1024 }; /* more than one view, or three elements of any kind */
 
 enum status device_create(struct vulkan_context *context, bool corrected, struct device *device)
 {
@@ -18,18 +18,13 @@ enum status device_create(struct vulkan_context *context, bool corrected, struct
     device->corrected_division = corrected || !context->arithmetic.division_exact;
     device->corrected_root = corrected || !context->arithmetic.root_exact;
     if (status == STATUS_DONE)
-        status = vulkan_buffer_create(context, "scene", SCENE_BYTES, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                                      BUFFER_UPLOAD, &device->scene);
+        status = vulkan_buffer_create(context, "scene", SCENE_BYTES, BUFFER_UPLOAD, &device->scene);
     if (status == STATUS_DONE)
         memset(device->scene.mapped, 0, SCENE_BYTES);
     if (status == STATUS_DONE)
-        status = vulkan_buffer_create(context, "inputs", size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                      BUFFER_UPLOAD, &device->inputs);
+        status = vulkan_buffer_create(context, "inputs", size, BUFFER_UPLOAD, &device->inputs);
     if (status == STATUS_DONE)
-        status = vulkan_buffer_create(context, "outputs", size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                      BUFFER_READBACK, &device->outputs);
-    if (status == STATUS_DONE)
-        status = vulkan_command_create(context, &device->command);
+        status = vulkan_buffer_create(context, "outputs", size, BUFFER_READBACK, &device->outputs);
     if (status != STATUS_DONE)
         device_destroy(device);
     return status;
@@ -38,7 +33,6 @@ enum status device_create(struct vulkan_context *context, bool corrected, struct
 void device_destroy(struct device *device)
 {
     vulkan_pass_destroy(&device->pass);
-    vulkan_command_destroy(&device->command);
     vulkan_buffer_destroy(device->context, &device->outputs);
     vulkan_buffer_destroy(device->context, &device->inputs);
     vulkan_buffer_destroy(device->context, &device->scene);
@@ -109,14 +103,9 @@ enum status device_load(struct device *device, const struct function_test *test)
 
 enum status device_run(struct device *device, size_t count, double *ns)
 {
+    const struct pass_dispatch dispatch = {.groups_x = (uint32_t)(count + GROUP - 1) / GROUP, .groups_y = 1};
     double milliseconds = 0;
-    enum status status = vulkan_command_begin(&device->command, "functions");
-    if (status != STATUS_DONE)
-        return status;
-    vulkan_pass_record(&device->pass, &device->command, NULL, (uint32_t)(count + GROUP - 1) / GROUP, 1);
-    status = vulkan_command_submit(&device->command);
-    if (status == STATUS_DONE)
-        status = vulkan_command_wait(&device->command, &milliseconds);
+    enum status status = vulkan_pass_run(&device->pass, &dispatch, &milliseconds);
     *ns = milliseconds * 1e6;
     return status;
 }

@@ -17,7 +17,6 @@ struct device {
     bool corrected_division, corrected_root;
     struct vulkan_buffer scene; /* functions.comp has the scene's bindings, and never reads them */
     struct vulkan_buffer inputs, outputs;
-    struct vulkan_command command;
     struct vulkan_pass pass; /* of the function that is loaded */
 };
 
