@@ -1,5 +1,3 @@
-#include "bench/compare.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -57,11 +55,6 @@ struct pair {
     bool on_cpu;
 };
 
-/* How the machine as a whole has changed from one bench to the other, as the settings of one backend tell. */
-struct drift {
-    double change, variance; /* 0 where they do not tell */
-};
-
 struct comparing {
     FILE *stream;
     bool times;              /* can be compared */
@@ -69,7 +62,6 @@ struct comparing {
     struct pair pairs[BENCH_MAX_SETTINGS];
     size_t count;
     double old_spread, new_spread; /* typical ones, relative */
-    struct drift drifts[2];        /* of the device, of the CPU */
     size_t compared, worse, better;
 };
 
@@ -88,7 +80,9 @@ static double median(double *values, size_t count)
     return sorted_quantile(values, count, 0.5);
 }
 
-static struct drift find_drift(const struct comparing *comparing, bool on_cpu)
+/* How the machine as a whole has changed from one bench to the other, as the settings of one backend tell:
+ * the median change and its variance, both 0 where they do not tell. */
+static double find_drift(const struct comparing *comparing, bool on_cpu, double *variance)
 {
     double changes[BENCH_MAX_SETTINGS], sum = 0, squares = 0;
     size_t count = 0;
@@ -100,36 +94,33 @@ static struct drift find_drift(const struct comparing *comparing, bool on_cpu)
         sum += pair->change;
         squares += pair->change * pair->change;
     }
-    if (count < 2)
-        return (struct drift){0, 0};
-    double n = (double)count, variance = fmax(squares - sum * sum / n, 0) / (n - 1);
-    return (struct drift){median(changes, count), median_factor * variance / n};
+    double n = (double)count;
+    *variance = count < 2 ? 0 : median_factor * fmax(squares - sum * sum / n, 0) / (n - 1) / n;
+    return count < 2 ? 0 : median(changes, count);
 }
 
 static void find_pairs(struct comparing *comparing)
 {
     double old_spreads[BENCH_MAX_SETTINGS], new_spreads[BENCH_MAX_SETTINGS];
     const json_t *point;
-    size_t i;
-    comparing->count = 0;
+    size_t i, count = 0;
     json_array_foreach(json_object_get(comparing->new, "points"), i, point)
     {
         const json_t *old = find(json_object_get(comparing->old, "points"), point, "family", "options");
-        if (!old || comparing->count == BENCH_MAX_SETTINGS)
+        if (!old || count == BENCH_MAX_SETTINGS)
             continue;
-        old_spreads[comparing->count] = relative_spread(old);
-        new_spreads[comparing->count] = relative_spread(point);
-        comparing->pairs[comparing->count++] = (struct pair){
+        old_spreads[count] = relative_spread(old);
+        new_spreads[count] = relative_spread(point);
+        comparing->pairs[count++] = (struct pair){
             .old = old,
             .new = point,
             .change = log(bench_number(point, "time_ms") / bench_number(old, "time_ms")),
             .on_cpu = strcmp(bench_text(point, "backend"), "cpu") == 0,
         };
     }
-    comparing->old_spread = median(old_spreads, comparing->count);
-    comparing->new_spread = median(new_spreads, comparing->count);
-    for (int on_cpu = 0; on_cpu < 2; ++on_cpu)
-        comparing->drifts[on_cpu] = find_drift(comparing, on_cpu);
+    comparing->count = count;
+    comparing->old_spread = median(old_spreads, count);
+    comparing->new_spread = median(new_spreads, count);
 }
 
 static void note_change(struct comparing *comparing, const struct pair *pair, bool worse, const char *what,
@@ -156,15 +147,13 @@ static bool is_beyond(double change, double variance)
 
 static void compare_times(struct comparing *comparing, const struct pair *pair)
 {
-    const struct drift *control = &comparing->drifts[!pair->on_cpu];
+    double drift_variance, own = pair->change - find_drift(comparing, !pair->on_cpu, &drift_variance);
     double variance =
         time_variance(pair->old, comparing->old_spread) + time_variance(pair->new, comparing->new_spread);
-    double own = pair->change - control->change;
-    if (!is_beyond(pair->change, variance) || own * pair->change < 0 ||
-        !is_beyond(own, variance + control->variance))
-        return;
-    note_change(comparing, pair, pair->change > 0, pair->change > 0 ? "SLOWER" : "faster",
-                bench_number(pair->old, "time_ms"), bench_number(pair->new, "time_ms"), " ms");
+    if (is_beyond(pair->change, variance) && own * pair->change >= 0 &&
+        is_beyond(own, variance + drift_variance))
+        note_change(comparing, pair, pair->change > 0, pair->change > 0 ? "SLOWER" : "faster",
+                    bench_number(pair->old, "time_ms"), bench_number(pair->new, "time_ms"), " ms");
 }
 
 static void compare_errors(struct comparing *comparing, const struct pair *pair)

@@ -3,11 +3,7 @@
 #include <stdio.h>
 
 #include "base/json.h"
-#include "bench/compare.h"
-#include "bench/document.h"
-#include "bench/report.h"
-#include "bench/scene.h"
-#include "bench/table.h"
+#include "bench/bench.h"
 
 static enum status measure(const struct options *options, struct vulkan_context *context, json_t *document)
 {
