@@ -4,23 +4,23 @@
 #include <jansson.h>
 #include <stdio.h>
 
-#include "vulkan/context.h"
+#include "tracer/job.h"
+
+/* The bench document without a scene: the command line and what times depend on. STATUS_UNABLE (reported)
+ * without memory or where the command line is not UTF-8. The caller frees *document. */
+enum status bench_document(int argc, char **argv, bool quick, const struct vulkan_context *context,
+                           json_t **document);
 
 struct bench_options {
-    unsigned width, height; /* 0: the scene's */
-    bool quick, quiet;
+    struct job_options job;         /* of these the size and quiet */
+    struct vulkan_context *context; /* NULL: the CPU alone */
+    bool quick;
     bool wants_pictures; /* for the report */
 };
 
-/* The bench document without a scene: the command line and what times depend on. NULL without memory or where
- * the command line is not UTF-8. */
-json_t *bench_document(int argc, char **argv, bool quick, const struct vulkan_context *context);
-
-/* Measures one scene as the options say, on the context's device, or with NULL on the CPU alone. *scene gets
- * an element for the document's "scenes", with "pictures" where they are wanted; NULL with any status but
- * STATUS_DONE. A setting that the device cannot do is left out with a warning. */
-enum status bench_scene(const struct bench_options *options, struct vulkan_context *context, const char *path,
-                        json_t **scene);
+/* Measures one scene as the options say. *scene gets an element for the document's "scenes"; NULL with any
+ * status but STATUS_DONE. A setting that the device cannot do is left out with a warning. */
+enum status bench_scene(const struct bench_options *options, const char *path, json_t **scene);
 
 /* A scene of the bench document for people: a line a setting, then the fitted slopes, what device and
  * reference agree in, and a recommendation for each of four errors. */

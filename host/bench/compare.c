@@ -65,12 +65,9 @@ struct comparing {
     size_t compared, worse, better;
 };
 
-/* Distance of the quartiles by the median. */
 static double relative_spread(const json_t *point)
 {
-    const json_t *quartiles = json_object_get(point, "time_quartiles_ms");
-    double low = json_number_value(json_array_get(quartiles, 0));
-    double spread = (json_number_value(json_array_get(quartiles, 1)) - low) / bench_number(point, "time_ms");
+    double spread = bench_spread_ms(point) / bench_number(point, "time_ms");
     return spread >= 0 && isfinite(spread) ? spread : 0;
 }
 
@@ -123,12 +120,14 @@ static void find_pairs(struct comparing *comparing)
     comparing->new_spread = median(new_spreads, count);
 }
 
-static void note_change(struct comparing *comparing, const struct pair *pair, bool worse, const char *what,
-                        double old_value, double new_value, const char *unit)
+/* Notes a change for the better or the worse, which is up, and says so with one of the two texts. */
+static void note_change(struct comparing *comparing, const struct pair *pair, const char *const texts[2],
+                        double before, double after, const char *unit)
 {
     const char *options = bench_text(pair->new, "options");
+    const bool worse = after > before;
     fprintf(comparing->stream, "%s: %s: %s: %.3g%s, was %.3g%s\n", bench_text(comparing->new, "scene"),
-            *options ? options : "as the scene says", what, new_value, unit, old_value, unit);
+            *options ? options : "as the scene says", texts[worse], after, unit, before, unit);
     comparing->worse += worse;
     comparing->better += !worse;
 }
@@ -152,26 +151,26 @@ static void compare_times(struct comparing *comparing, const struct pair *pair)
         time_variance(pair->old, comparing->old_spread) + time_variance(pair->new, comparing->new_spread);
     if (is_beyond(pair->change, variance) && own * pair->change >= 0 &&
         is_beyond(own, variance + drift_variance))
-        note_change(comparing, pair, pair->change > 0, pair->change > 0 ? "SLOWER" : "faster",
+        note_change(comparing, pair, (const char *const[]){"faster", "SLOWER"},
                     bench_number(pair->old, "time_ms"), bench_number(pair->new, "time_ms"), " ms");
 }
 
 static void compare_errors(struct comparing *comparing, const struct pair *pair)
 {
-    static const char *const keys[] = {"rmse", "max"};
-    static const char *const texts[][2] = {{"more accurate, RMSE", "LESS ACCURATE, RMSE"},
-                                           {"more accurate, largest error", "LESS ACCURATE, largest error"}};
+    static const struct {
+        const char *key, *texts[2];
+    } errors[] = {{"rmse", {"more accurate, RMSE", "LESS ACCURATE, RMSE"}},
+                  {"max", {"more accurate, largest error", "LESS ACCURATE, largest error"}}};
     const json_t *old = json_object_get(pair->old, "error"), *new = json_object_get(pair->new, "error");
     bool sampled =
         bench_number(pair->new, "samples") > 1 || json_is_true(json_object_get(comparing->new, "sampled"));
-    double noise = sampled ? standard_errors * hypot(bench_number(old, "rmse_uncertainty"),
-                                                     bench_number(new, "rmse_uncertainty"))
-                           : 0;
+    double noise =
+        standard_errors * hypot(bench_number(old, "rmse_uncertainty"), bench_number(new, "rmse_uncertainty"));
     for (int i = 0; i < (sampled ? 1 : 2); ++i) {
-        double before = bench_number(old, keys[i]), after = bench_number(new, keys[i]);
-        if (before == after || !(fabs(after - before) > fmax(noise, printing_error * before)))
+        double before = bench_number(old, errors[i].key), after = bench_number(new, errors[i].key);
+        if (before == after || !(fabs(after - before) > fmax(sampled ? noise : 0, printing_error * before)))
             continue;
-        note_change(comparing, pair, after > before, texts[i][after > before], before, after, "");
+        note_change(comparing, pair, errors[i].texts, before, after, "");
         return;
     }
 }
@@ -200,12 +199,13 @@ static void compare_scenes(struct comparing *comparing)
     comparing->compared += comparing->count;
 }
 
-/* Text or integer as text; "none" where there is none. */
-static const char *value_text(const json_t *object, const char *key, char number[32])
+/* A text or an integer, or else "none". */
+static void write_value(const json_t *value, char text[256])
 {
-    const json_t *value = json_object_get(object, key);
-    snprintf(number, 32, "%lld", (long long)json_integer_value(value));
-    return json_is_integer(value) ? number : value ? bench_text(object, key) : "none";
+    if (json_is_integer(value))
+        snprintf(text, 256, "%lld", (long long)json_integer_value(value));
+    else
+        snprintf(text, 256, "%s", json_is_string(value) ? json_string_value(value) : "none");
 }
 
 /* Says where the bench ran elsewhere, and returns whether it did not. */
@@ -214,9 +214,9 @@ static bool same_machine(const json_t *old, const json_t *new, FILE *stream)
     static const char *const keys[] = {"processor", "cores", "device", "driver"};
     bool same = true;
     for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i) {
-        char old_number[32], new_number[32];
-        const char *before = value_text(old, keys[i], old_number),
-                   *now = value_text(new, keys[i], new_number);
+        char before[256], now[256];
+        write_value(json_object_get(old, keys[i]), before);
+        write_value(json_object_get(new, keys[i]), now);
         if (strcmp(before, now) == 0)
             continue;
         fprintf(stream, "another machine: %s %s, was %s\n", keys[i], now, before);

@@ -57,6 +57,12 @@ const char *bench_text(const json_t *object, const char *key)
     return text ? text : "";
 }
 
+double bench_spread_ms(const json_t *point)
+{
+    const json_t *quartiles = json_object_get(point, "time_quartiles_ms");
+    return json_number_value(json_array_get(quartiles, 1)) - json_number_value(json_array_get(quartiles, 0));
+}
+
 bool bench_is_filtered(const json_t *point)
 {
     return strcmp(bench_text(point, "family"), family_names[FAMILY_SAMPLES]) == 0;
@@ -131,7 +137,7 @@ static json_t *describe_recommendation(const struct bench *bench, double error)
                      best ? json_real(best->median_ms) : json_null());
 }
 
-json_t *bench_scene_document(struct bench *bench)
+enum status bench_describe(struct bench *bench, json_t **scene)
 {
     const struct picture_settings *picture = &bench->picture;
     const struct judgement *rounding = &bench->rounding;
@@ -144,25 +150,26 @@ json_t *bench_scene_document(struct bench *bench)
     append(&convergence, describe_convergence(bench, FAMILY_SAMPLES));
     for (int i = 0; i < 4; ++i)
         append(&recommendations, describe_recommendation(bench, (const double[]){1e-2, 1e-3, 1e-4, 1e-5}[i]));
-    json_t *scene = json_pack(
+    *scene = json_pack(
         "{s:s, s:i, s:i, s:i, s:i, s:i, s:b, s:s, s:I, s:s, s:I, s:o, s:o, s:o, "
         "s:{s:s, s:I, s:o, s:o, s:o, s:o, s:I}, s:o, s:O*}",
-        "scene", bench->path, "width", (int)picture->width, "height", (int)picture->height, "max_bounces",
-        (int)picture->max_bounces, "light_samples", (int)picture->light_samples, "samples",
+        "scene", bench->job.scene.path, "width", (int)picture->width, "height", (int)picture->height,
+        "max_bounces", (int)picture->max_bounces, "light_samples", (int)picture->light_samples, "samples",
         (int)picture->samples, "sampled", bench->has_quad_lights, "truth", bench->truth.text, "truth_pixels",
         (json_int_t)pixel_grid_count(&bench->truth.pixels.grid), "truth_samples", bench->filtered.text,
         "truth_samples_pixels", (json_int_t)pixel_grid_count(&bench->filtered.pixels.grid), "points", points,
         "convergence", convergence, "agreement",
-        bench->context ? json_pack("{s:I, s:I}", "differing_pixels", (json_int_t)bench->differing, "pixels",
-                                   (json_int_t)picture->width * picture->height)
-                       : json_null(),
+        bench->options->context ? json_pack("{s:I, s:I}", "differing_pixels", (json_int_t)bench->differing,
+                                            "pixels", (json_int_t)picture->width * picture->height)
+                                : json_null(),
         "rounding", "against", "quad", "pixels", (json_int_t)bench->rounding_pixels, "median",
         json_real_or_null(rounding->median), "p99", json_real_or_null(rounding->percentile_99), "p9999",
         json_real_or_null(rounding->percentile_99_99), "max", json_real_or_null(rounding->max), "unexplained",
         (json_int_t)rounding->unexplained, "recommendations", recommendations, "pictures", bench->pictures);
-    if (!scene)
-        log_error("no memory for the result of %s, or its name is not UTF-8", bench->path);
-    return scene;
+    if (*scene)
+        return STATUS_DONE;
+    log_error("no memory for the result of %s, or its name is not UTF-8", bench->job.scene.path);
+    return STATUS_UNABLE;
 }
 
 /* The command line as a shell would read it; the caller frees it. NULL without memory. */
@@ -203,13 +210,14 @@ static void name_processor(char name[256])
         fclose(file);
 }
 
-json_t *bench_document(int argc, char **argv, bool quick, const struct vulkan_context *context)
+enum status bench_document(int argc, char **argv, bool quick, const struct vulkan_context *context,
+                           json_t **document)
 {
     char date[32], processor[256], *command = quote_command(argc, argv);
     time_t now = time(NULL);
     strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", gmtime(&now));
     name_processor(processor);
-    json_t *document = json_pack(
+    *document = json_pack(
         "{s:s, s:s, s:s, s:s, s:b, s:{s:s, s:i, s:s, s:s*, s:o*}, s:[]}", "program", "vkwhitted", "version",
         VKWHITTED_VERSION, "command", command, "date", date, "quick", quick, "machine", "processor",
         processor, "cores", (int)sysconf(_SC_NPROCESSORS_ONLN), "compiler",
@@ -222,5 +230,8 @@ json_t *bench_document(int argc, char **argv, bool quick, const struct vulkan_co
         context ? json_sprintf("%s %s", context->driver.driverName, context->driver.driverInfo) : NULL,
         "scenes");
     free(command);
-    return document;
+    if (*document)
+        return STATUS_DONE;
+    log_error("no memory for the results, or the command line is not UTF-8");
+    return STATUS_UNABLE;
 }

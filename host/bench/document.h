@@ -12,9 +12,9 @@ void bench_mark_pareto(struct bench_point *points, size_t count);
 /* The point of the least time with an error of at most `within`, those of pixel samples apart; NULL: none. */
 const struct bench_point *bench_fastest_within(const struct bench_point *points, size_t count, double within);
 
-/* The finished bench as a scene of the document; NULL (reported) without memory or where its path is not
- * UTF-8. Marks the points. */
-json_t *bench_scene_document(struct bench *bench);
+/* Marks the finished bench's points, and describes it as a scene of the document. STATUS_UNABLE (reported)
+ * without memory or where its path is not UTF-8. */
+enum status bench_describe(struct bench *bench, json_t **scene);
 
 /* The picture as "render" and, with a reference, where it differs from that as "heatmap" (see heatmap.h),
  * each a PNG in base64, in an object that the caller frees. On failure (reported) *pictures is NULL. */
@@ -25,6 +25,9 @@ double bench_number(const json_t *object, const char *key);
 
 /* A text of the document; "" where it is missing. */
 const char *bench_text(const json_t *object, const char *key);
+
+/* The distance of the quartiles of the point's times. */
+double bench_spread_ms(const json_t *point);
 
 /* Whether the point's errors are against the truth for pixel samples. */
 bool bench_is_filtered(const json_t *point);

@@ -47,10 +47,10 @@ static enum status start_point(struct bench *bench, struct bench_point *point)
         status = image_widen(&bench->image);
     double start = clock_ms();
     if (status == STATUS_DONE)
-        status = pack_scene(&bench->scene, picture, &point->packed);
+        status = pack_scene(&bench->job.scene, picture, &point->packed);
     if (status == STATUS_DONE && on_device)
         status =
-            tracer_create(bench->context, &point->packed,
+            tracer_create(bench->options->context, &point->packed,
                           &(struct tracer_options){.double_precision = is_double, .fast = point->plan.fast},
                           &point->tracer);
     point->setup_ms = clock_ms() - start;
@@ -59,7 +59,7 @@ static enum status start_point(struct bench *bench, struct bench_point *point)
     if (status == STATUS_DONE && on_device) {
         struct render_plan in_float = point->plan;
         in_float.precision = PRECISION_FLOAT;
-        status = rays_on_device(bench->context, &in_float, &point->rays);
+        status = rays_on_device(bench->options->context, &in_float, &point->rays);
     }
     if (status != STATUS_DONE)
         bench_point_destroy(point);
@@ -96,7 +96,7 @@ static enum status start_points(struct bench *bench)
         bool too_long;
         *point = bench->points[i];
         if (clock_ms() - bench->start_ms > bench->effort->whole_ms && point->family >= FAMILY_MAX_ERROR) {
-            log_warning("%s: no time for %zu of %zu settings", bench->path, count - i, count);
+            log_warning("%s: no time for %zu of %zu settings", bench->job.scene.path, count - i, count);
             break;
         }
         progress_advance(&bench->progress, START_SHARE / count);
@@ -110,7 +110,7 @@ static enum status start_points(struct bench *bench)
                                          point->family == FAMILY_SAMPLES ? &bench->filtered : &bench->truth,
                                          &point->error);
         } else if (status == STATUS_UNABLE) {
-            log_warning("%s: left out: %s", bench->path, point->label);
+            log_warning("%s: left out: %s", bench->job.scene.path, point->label);
             status = STATUS_DONE;
         }
     }
@@ -138,7 +138,7 @@ static enum status run_rounds(struct bench *bench)
 {
     const struct bench_effort *effort = bench->effort;
     const double start = clock_ms();
-    const double runs_ms = fmin(effort->runs_ms, fmax(effort->whole_ms - (start - bench->start_ms), 1));
+    const double runs_ms = fmin(effort->runs.all_ms, fmax(effort->whole_ms - (start - bench->start_ms), 1));
     enum status status = STATUS_DONE;
     uint64_t shown = 0;
     bool going_on = true;
@@ -150,8 +150,8 @@ static enum status run_rounds(struct bench *bench)
                 continue;
             struct bench_point *point = &bench->points[i];
             double elapsed = fmin((clock_ms() - start) / runs_ms, 1); /* of the time */
-            bool is_over = point->spent_ms >= effort->point_ms || elapsed >= 1;
-            if (point->run_count >= (is_over ? effort->least_runs : effort->most_runs))
+            bool is_over = point->spent_ms >= effort->runs.point_ms || elapsed >= 1;
+            if (point->run_count >= (is_over ? effort->runs.least : effort->runs.most))
                 continue;
             going_on = true;
             status = run_warm(point, &bench->image);
@@ -167,7 +167,7 @@ enum status bench_measure(struct bench *bench)
 {
     bench->points = calloc(BENCH_MAX_SETTINGS, sizeof *bench->points);
     if (!bench->points) {
-        log_error("%s: no memory for the settings of a bench", bench->path);
+        log_error("%s: no memory for the settings of a bench", bench->job.scene.path);
         return STATUS_UNABLE;
     }
     bench_settings(bench);

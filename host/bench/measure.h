@@ -38,12 +38,16 @@ struct bench_point {
     bool pareto;
 };
 
-/* What a bench may cost: truths in rays times objects, times in ms. */
+/* What a bench may cost. */
 struct bench_effort {
-    double quad, with_double, explained; /* explained: float, and quad with the error analysis */
-    double longest_run_ms;               /* a family ends where its next run would take longer */
-    size_t least_runs, most_runs;        /* of a point */
-    double point_ms, runs_ms;            /* of a point's warm runs, of all, but for the least runs */
+    struct {
+        double quad, with_double, explained; /* explained: float, and quad with the error analysis */
+    } truth;                                 /* in rays times objects */
+    double longest_run_ms;                   /* a family ends where its next run would take longer */
+    struct {
+        size_t least, most;      /* of a point */
+        double point_ms, all_ms; /* of a point, of all points, but for their least runs */
+    } runs;
     double whole_ms; /* a bench that has taken longer starts no more knobs and makes the least runs only */
 };
 
@@ -54,13 +58,10 @@ enum { TRUTH_SHARE = 120, FILTERED_SHARE = 220, ROUNDING_SHARE = 120, START_SHAR
 struct bench {
     const struct bench_options *options;
     const struct bench_effort *effort;
-    struct vulkan_context *context; /* NULL: the CPU alone */
-    const char *path;
     double start_ms;
     struct progress progress;
-    struct scene scene;
-    struct picture_settings picture; /* what the scene says, of the size asked for */
-    struct packed_scene packed;
+    struct job job;                  /* the scene as it is */
+    struct picture_settings picture; /* the same */
     bool has_secondary_rays, has_quad_lights;
     unsigned deepest;                    /* bounces that a picture with all bounces may cost */
     struct ground_truth truth, filtered; /* for all families but samples; for those */

@@ -80,12 +80,13 @@ static void append_knobs(struct knob *knob)
 
 void bench_settings(struct bench *bench)
 {
-    const bool on_device = bench->context != NULL, quick = bench->options->quick;
+    const bool on_device = bench->options->context != NULL, quick = bench->options->quick;
     struct knob knob = {.bench = bench, .label_end = "", .options_end = on_device ? "" : " --backend cpu"};
     for (int i = on_device ? 0 : DEVICE_MODES; i < (quick ? QUICK_MODES : ALL_MODES); ++i) {
         knob.point = modes[i];
         knob.point.picture = bench->picture;
-        if (i >= DEVICE_MODES || knob.point.plan.precision == PRECISION_FLOAT || bench->context->has_float64)
+        if (i >= DEVICE_MODES || knob.point.plan.precision == PRECISION_FLOAT ||
+            bench->options->context->has_float64)
             append(&knob);
     }
     knob.point =

@@ -4,14 +4,6 @@
 #include "base/output_file.h"
 #include "bench/document.h"
 
-static double spread_ms(const json_t *point)
-{
-    const json_t *quartiles = json_object_get(point, "time_quartiles_ms");
-    return (json_number_value(json_array_get(quartiles, 1)) -
-            json_number_value(json_array_get(quartiles, 0))) /
-           2;
-}
-
 /* The points against the one truth or the other. */
 static void print_points(const json_t *scene, bool filtered, FILE *stream)
 {
@@ -37,7 +29,7 @@ static void print_points(const json_t *scene, bool filtered, FILE *stream)
         if (bench_is_filtered(point) == filtered)
             fprintf(stream, "%c %-*s %9.2f %7.2f %8.1f  %8.2g %8.2g %8.2g %8.2g %8.2g %8.0f\n",
                     json_is_true(json_object_get(point, "pareto")) ? '*' : ' ', width,
-                    *options ? options : as_it_is, bench_number(point, "time_ms"), spread_ms(point),
+                    *options ? options : as_it_is, bench_number(point, "time_ms"), bench_spread_ms(point) / 2,
                     bench_number(point, "rays_per_second") * 1e-6, bench_number(error, "max"),
                     bench_number(error, "rmse"), bench_number(error, "absolute_999"),
                     bench_number(error, "relative_median"), bench_number(error, "relative_999"),
