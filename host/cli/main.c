@@ -1,9 +1,8 @@
 #include <signal.h>
-#include <stdio.h>
+#include <stdlib.h>
 
 #include "base/interrupt.h"
-#include "cli/command_line.h"
-#include "cli/help.h"
+#include "cli/options.h"
 
 static enum status run(const struct options *options)
 {
@@ -28,7 +27,7 @@ int main(int argc, char **argv)
     enum status status = command_line_read(argc, argv, &options);
     if (status == STATUS_DONE)
         status = run(&options);
-    command_line_destroy(&options);
+    free(options.outputs);
     if (status == STATUS_DONE && fflush(stdout) != 0) {
         log_error("cannot write to standard output");
         status = STATUS_UNABLE;
