@@ -73,32 +73,35 @@ static enum status render(const struct packed_scene *scene, enum precision preci
     return STATUS_INTERRUPTED;
 }
 
-/* Counts the rays of some of the picture's pixels, with one sample of everything. */
-static enum status count_rays(const struct packed_scene *scene, struct reference_rays *rays, double *pixels)
+/* Estimates by some of the picture's pixels, with one sample of everything: secondary rays a pixel, and rays
+ * times objects a pixel with all samples. */
+static enum status estimate(const struct packed_scene *scene, double *secondary, double *work)
 {
     struct packed_scene pilot = *scene;
     struct grid_pixels result = {
         .grid = pixel_grid_fitting((unsigned)scene->width, (unsigned)scene->height, PILOT_PIXELS)};
+    const struct reference_rays *rays = &result.rays;
+    double lights = scene->quad_light_count > 0 ? scene->light_samples : 1;
     pilot.samples = pilot.light_samples = 1;
-    *pixels = (double)pixel_grid_count(&result.grid);
     enum status status = render(&pilot, PRECISION_FLOAT, false, NULL, 0, &result);
-    *rays = result.rays;
+    if (status != STATUS_DONE)
+        return status;
+    double pixels = (double)pixel_grid_count(&result.grid);
+    *secondary = (double)rays->secondary / pixels;
+    *work = ((double)(rays->primary + rays->secondary) + (double)rays->shadow * lights) * scene->samples *
+            (scene->sphere_count + scene->plane_count + 1) / pixels;
     grid_pixels_destroy(&result);
-    return status;
+    return STATUS_DONE;
 }
 
 enum status grid_render(const struct packed_scene *scene, enum precision precision, bool explained,
                         double work, struct progress *progress, unsigned share, struct grid_pixels *pixels)
 {
-    struct reference_rays rays;
-    double pilot_pixels;
+    double secondary, work_a_pixel;
     *pixels = (struct grid_pixels){0};
-    enum status status = count_rays(scene, &rays, &pilot_pixels);
+    enum status status = estimate(scene, &secondary, &work_a_pixel);
     if (status != STATUS_DONE)
         return status;
-    double lights = scene->quad_light_count > 0 ? scene->light_samples : 1;
-    double work_a_pixel = ((double)(rays.primary + rays.secondary) + (double)rays.shadow * lights) *
-                          scene->samples * (scene->sphere_count + scene->plane_count + 1) / pilot_pixels;
     pixels->grid = pixel_grid_fitting((unsigned)scene->width, (unsigned)scene->height, work / work_a_pixel);
     return render(scene, precision, explained, progress, share, pixels);
 }
@@ -116,12 +119,11 @@ enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *mo
     struct packed_scene pilot = *packed;
     *most = (unsigned)packed->max_bounces;
     while (*most < ALL_BOUNCES) {
-        struct reference_rays rays;
-        double pixels;
+        double secondary, work;
         unsigned next = *most + STRIDE_OF_BOUNCES;
         pilot.max_bounces = (int)(next < ALL_BOUNCES ? next : ALL_BOUNCES);
-        enum status status = count_rays(&pilot, &rays, &pixels);
-        if (status != STATUS_DONE || (double)rays.secondary > most_rays_a_pixel * pixels)
+        enum status status = estimate(&pilot, &secondary, &work);
+        if (status != STATUS_DONE || secondary > most_rays_a_pixel)
             return status;
         *most = (unsigned)pilot.max_bounces;
     }

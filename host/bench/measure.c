@@ -127,10 +127,9 @@ static enum status run_warm(struct bench_point *point, struct image *image)
     return status;
 }
 
-/* In rounds, points stand in the order of multiples of STRIDE: those that are neighbours in the list, as are
- * the CPU's, are spread evenly (STRIDE / SLOTS is near the golden section). */
-enum { SLOTS = 128, STRIDE = 79 };
-_Static_assert((int)SLOTS >= (int)BENCH_MAX_SETTINGS, "a slot for each");
+/* In rounds, points stand in the order of multiples of STRIDE, modulo BENCH_MAX_SETTINGS: near the golden
+ * section of that, it spreads those that are neighbours in the list, as are the CPU's, evenly. */
+enum { STRIDE = 79 };
 
 /* Runs all points warm in rounds, one run of each in a round, so that what disturbs the machine for a while
  * disturbs all of them; every other round runs backward, so that a steady drift cancels. */
@@ -144,8 +143,8 @@ static enum status run_rounds(struct bench *bench)
     bool going_on = true;
     for (size_t round = 0; going_on && status == STATUS_DONE; ++round) {
         going_on = false;
-        for (size_t slot = 0; slot < SLOTS && status == STATUS_DONE; ++slot) {
-            size_t i = (round % 2 ? SLOTS - 1 - slot : slot) * STRIDE % SLOTS;
+        for (size_t slot = 0; slot < BENCH_MAX_SETTINGS && status == STATUS_DONE; ++slot) {
+            size_t i = (round % 2 ? BENCH_MAX_SETTINGS - 1 - slot : slot) * STRIDE % BENCH_MAX_SETTINGS;
             if (i >= bench->count)
                 continue;
             struct bench_point *point = &bench->points[i];

@@ -1,5 +1,6 @@
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "bench/measure.h"
 
@@ -18,89 +19,79 @@ static const struct bench_point modes[ALL_MODES] = {
      .label = "CPU, double, 1 thread", .options = "--backend cpu --precision double --threads 1"},
 };
 
-/* The next point of the bench in the making. */
-struct knob {
-    struct bench *bench;
-    struct bench_point point;
-    const char *label_end, *options_end;
-};
-
-static void append(const struct knob *knob)
+/* Appends the point, all of whose options but these have been told. */
+static void append(struct bench *bench, const struct bench_point *knob)
 {
-    if (knob->bench->count < BENCH_MAX_SETTINGS)
-        knob->bench->points[knob->bench->count++] = knob->point;
+    struct bench_point *point = &bench->points[bench->count++];
+    *point = *knob;
+    strcat(point->label, point->plan.fast ? ", fast" : "");
+    strcat(point->options, point->plan.fast                ? " --fast"
+                           : point->backend == BACKEND_CPU ? " --backend cpu"
+                                                           : "");
 }
 
-/* Appends the point, whose picture has a max_error, of this text. */
-static void append_max_error(struct knob *knob, const char *text)
+/* Appends the point, whose picture has a max_error, with that of this text. */
+static void append_max_error(struct bench *bench, struct bench_point *knob, const char *text)
 {
-    struct bench_point *point = &knob->point;
-    point->picture.max_error = strtod(text, NULL);
-    snprintf(point->label, sizeof point->label, "max error %s%s", text, knob->label_end);
-    snprintf(point->options, sizeof point->options, "--max-error %s --max-bounces %u%s", text,
-             point->picture.max_bounces, knob->options_end);
-    append(knob);
+    knob->picture.max_error = strtod(text, NULL);
+    snprintf(knob->label, sizeof knob->label, "max error %s", text);
+    snprintf(knob->options, sizeof knob->options, "--max-error %s --max-bounces %u", text,
+             knob->picture.max_bounces);
+    append(bench, knob);
 }
 
 /* Appends the point with *value, which is part of its picture, set to n. */
-static void append_count(struct knob *knob, unsigned *value, unsigned n, const char *noun, const char *option)
+static void append_count(struct bench *bench, struct bench_point *knob, unsigned *value, unsigned n,
+                         const char *noun, const char *option)
 {
-    struct bench_point *point = &knob->point;
     *value = n;
-    snprintf(point->label, sizeof point->label, "%u %s%s%s", n, noun, n == 1 ? "" : "s", knob->label_end);
-    snprintf(point->options, sizeof point->options, "%s %u%s", option, n, knob->options_end);
-    append(knob);
+    snprintf(knob->label, sizeof knob->label, "%u %s%s", n, noun, n == 1 ? "" : "s");
+    snprintf(knob->options, sizeof knob->options, "%s %u", option, n);
+    append(bench, knob);
 }
 
-/* The knobs that trade rays for error. */
-static void append_knobs(struct knob *knob)
+/* The knobs that trade rays for error; those of pixel samples in exact mode alone. */
+static void append_knobs(struct bench *bench, bool fast)
 {
-    const struct bench *bench = knob->bench;
     const bool quick = bench->options->quick;
-    struct picture_settings *picture = &knob->point.picture;
+    struct bench_point knob = {.backend = bench->options->context ? BACKEND_VULKAN : BACKEND_CPU,
+                               .plan.fast = fast,
+                               .picture = bench->picture};
+    struct picture_settings *picture = &knob.picture;
     if (bench->has_secondary_rays) {
-        knob->point.family = FAMILY_MAX_ERROR;
+        knob.family = FAMILY_MAX_ERROR;
         picture->has_max_error = true;
         picture->max_bounces = bench->deepest;
         for (int digits = 1; digits <= (quick ? 4 : 6); ++digits)
-            append_max_error(knob, (char[]){'1', 'e', '-', (char)('0' + digits), '\0'});
-        append_max_error(knob, "0");
+            append_max_error(bench, &knob, (char[]){'1', 'e', '-', (char)('0' + digits), '\0'});
+        append_max_error(bench, &knob, "0");
         *picture = bench->picture;
-        knob->point.family = FAMILY_BOUNCES;
+        knob.family = FAMILY_BOUNCES;
         for (unsigned n = 0; n <= 16 && n <= bench->deepest; n += n < 8 ? 1 : 2)
             if (!quick || (n & (n - 1)) == 0)
-                append_count(knob, &picture->max_bounces, n, "bounce", "--max-bounces");
+                append_count(bench, &knob, &picture->max_bounces, n, "bounce", "--max-bounces");
+        *picture = bench->picture;
     }
-    *picture = bench->picture;
-    knob->point.family = FAMILY_LIGHT_SAMPLES;
+    knob.family = FAMILY_LIGHT_SAMPLES;
     for (unsigned n = 1; n <= 1024 && bench->has_quad_lights; n *= quick ? 4 : 2)
-        append_count(knob, &picture->light_samples, n, "light sample", "--light-samples");
+        append_count(bench, &knob, &picture->light_samples, n, "light sample", "--light-samples");
     *picture = bench->picture;
+    knob.family = FAMILY_SAMPLES;
+    for (unsigned n = 1; n <= 1024 && !fast; n *= quick ? 4 : 2)
+        append_count(bench, &knob, &picture->samples, n, "sample", "--samples");
 }
 
 void bench_settings(struct bench *bench)
 {
-    const bool on_device = bench->options->context != NULL, quick = bench->options->quick;
-    struct knob knob = {.bench = bench, .label_end = "", .options_end = on_device ? "" : " --backend cpu"};
-    for (int i = on_device ? 0 : DEVICE_MODES; i < (quick ? QUICK_MODES : ALL_MODES); ++i) {
-        knob.point = modes[i];
-        knob.point.picture = bench->picture;
-        if (i >= DEVICE_MODES || knob.point.plan.precision == PRECISION_FLOAT ||
-            bench->options->context->has_float64)
-            append(&knob);
-    }
-    knob.point =
-        (struct bench_point){.backend = on_device ? BACKEND_VULKAN : BACKEND_CPU, .picture = bench->picture};
-    append_knobs(&knob);
-    if (on_device && !quick) {
-        knob.point.plan.fast = true;
-        knob.label_end = ", fast";
-        knob.options_end = " --fast";
-        append_knobs(&knob);
-        knob.point.plan.fast = false;
-        knob.label_end = knob.options_end = "";
-    }
-    knob.point.family = FAMILY_SAMPLES;
-    for (unsigned n = 1; n <= 1024; n *= quick ? 4 : 2)
-        append_count(&knob, &knob.point.picture.samples, n, "sample", "--samples");
+    const struct vulkan_context *context = bench->options->context;
+    const bool quick = bench->options->quick;
+    for (int i = context ? 0 : DEVICE_MODES; i < (quick ? QUICK_MODES : ALL_MODES); ++i)
+        if (i >= DEVICE_MODES || modes[i].plan.precision == PRECISION_FLOAT || context->has_float64) {
+            struct bench_point *point = &bench->points[bench->count++];
+            *point = modes[i];
+            point->picture = bench->picture;
+        }
+    append_knobs(bench, false);
+    if (context && !quick)
+        append_knobs(bench, true);
 }
