@@ -35,14 +35,14 @@ static bool same_text(const json_t *a, const json_t *b, const char *key)
     return strcmp(bench_text(a, key), bench_text(b, key)) == 0;
 }
 
-/* The element of the array with the same texts at both keys; NULL if there is none. */
-static const json_t *find(const json_t *array, const json_t *like, const char *key, const char *other_key)
+/* The element of the array with the same text at the key; NULL if there is none. */
+static const json_t *find(const json_t *array, const json_t *like, const char *key)
 {
     const json_t *element;
     size_t i;
     json_array_foreach(array, i, element)
     {
-        if (same_text(element, like, key) && same_text(element, like, other_key))
+        if (same_text(element, like, key))
             return element;
     }
     return NULL;
@@ -103,7 +103,7 @@ static void find_pairs(struct comparing *comparing)
     size_t i, count = 0;
     json_array_foreach(json_object_get(comparing->new, "points"), i, point)
     {
-        const json_t *old = find(json_object_get(comparing->old, "points"), point, "family", "options");
+        const json_t *old = find(json_object_get(comparing->old, "points"), point, "options");
         if (!old || count == BENCH_MAX_SETTINGS)
             continue;
         old_spreads[count] = relative_spread(old);
@@ -235,7 +235,7 @@ enum status bench_compare(const json_t *old, const json_t *new, FILE *stream)
     comparing.times = same_machine(json_object_get(old, "machine"), json_object_get(new, "machine"), stream);
     json_array_foreach(json_object_get(new, "scenes"), i, scene)
     {
-        comparing.old = find(json_object_get(old, "scenes"), scene, "scene", "scene");
+        comparing.old = find(json_object_get(old, "scenes"), scene, "scene");
         comparing.new = scene;
         if (comparing.old)
             compare_scenes(&comparing);

@@ -117,16 +117,6 @@ static enum status start_points(struct bench *bench)
     return status;
 }
 
-static enum status run_warm(struct bench_point *point, struct image *image)
-{
-    double start = clock_ms();
-    enum status status = interrupt_requested() ? STATUS_INTERRUPTED
-                                               : run_point(point, image, &point->runs_ms[point->run_count]);
-    point->spent_ms += clock_ms() - start;
-    point->run_count += status == STATUS_DONE;
-    return status;
-}
-
 /* In rounds, points stand in the order of multiples of STRIDE, modulo BENCH_MAX_SETTINGS: near the golden
  * section of that, it spreads those that are neighbours in the list, as are the CPU's, evenly. */
 enum { STRIDE = 79 };
@@ -148,12 +138,17 @@ static enum status run_rounds(struct bench *bench)
             if (i >= bench->count)
                 continue;
             struct bench_point *point = &bench->points[i];
-            double elapsed = fmin((clock_ms() - start) / runs_ms, 1); /* of the time */
+            const double run_start = clock_ms();
+            double elapsed = fmin((run_start - start) / runs_ms, 1); /* of the time */
             bool is_over = point->spent_ms >= effort->runs.point_ms || elapsed >= 1;
             if (point->run_count >= (is_over ? effort->runs.least : effort->runs.most))
                 continue;
             going_on = true;
-            status = run_warm(point, &bench->image);
+            status = interrupt_requested()
+                         ? STATUS_INTERRUPTED
+                         : run_point(point, &bench->image, &point->runs_ms[point->run_count]);
+            point->spent_ms += clock_ms() - run_start;
+            point->run_count += status == STATUS_DONE;
             uint64_t now = (uint64_t)(RUNS_SHARE * elapsed);
             progress_advance(&bench->progress, now - shown);
             shown = now;

@@ -4,17 +4,6 @@
 #include "base/interrupt.h"
 #include "cli/options.h"
 
-static enum status run(const struct options *options)
-{
-    if (options->help)
-        help_print(stdout);
-    else if (options->version)
-        help_print_version();
-    else
-        return commands[options->command].run(options);
-    return STATUS_DONE;
-}
-
 int main(int argc, char **argv)
 {
     struct options options;
@@ -25,8 +14,12 @@ int main(int argc, char **argv)
         return STATUS_REFUSED;
     }
     enum status status = command_line_read(argc, argv, &options);
-    if (status == STATUS_DONE)
-        status = run(&options);
+    if (options.help)
+        help_print(stdout);
+    else if (options.version)
+        help_print_version();
+    else if (status == STATUS_DONE)
+        status = commands[options.command].run(&options);
     free(options.outputs);
     if (status == STATUS_DONE && fflush(stdout) != 0) {
         log_error("cannot write to standard output");
