@@ -1,7 +1,6 @@
 #include "bench/measure.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/clock.h"
 #include "base/interrupt.h"
@@ -26,7 +25,7 @@ static enum status run_point(struct bench_point *point, struct image *image, dou
     return STATUS_DONE;
 }
 
-void bench_point_destroy(struct bench_point *point)
+static void stop_point(struct bench_point *point)
 {
     tracer_destroy(&point->tracer);
     pack_destroy(&point->packed);
@@ -62,7 +61,7 @@ static enum status start_point(struct bench *bench, struct bench_point *point)
         status = rays_on_device(bench->options->context, &in_float, &point->rays);
     }
     if (status != STATUS_DONE)
-        bench_point_destroy(point);
+        stop_point(point);
     return status;
 }
 
@@ -159,11 +158,6 @@ static enum status run_rounds(struct bench *bench)
 
 enum status bench_measure(struct bench *bench)
 {
-    bench->points = calloc(BENCH_MAX_SETTINGS, sizeof *bench->points);
-    if (!bench->points) {
-        log_error("%s: no memory for the settings of a bench", bench->job.scene.path);
-        return STATUS_UNABLE;
-    }
     bench_settings(bench);
     enum status status = start_points(bench);
     if (status == STATUS_DONE)
@@ -174,6 +168,8 @@ enum status bench_measure(struct bench *bench)
         point->median_ms = sorted_quantile(point->runs_ms, point->run_count, 0.5);
         point->quartiles_ms[0] = sorted_quantile(point->runs_ms, point->run_count, 0.25);
         point->quartiles_ms[1] = sorted_quantile(point->runs_ms, point->run_count, 0.75);
+        stop_point(point);
     }
+    image_destroy(&bench->image);
     return status;
 }

@@ -67,19 +67,18 @@ struct bench {
     struct ground_truth truth, filtered; /* for all families but samples; for those */
     struct judgement rounding;           /* of float against quad */
     size_t rounding_pixels;
-    struct bench_point *points;
+    struct bench_point points[BENCH_MAX_SETTINGS];
     size_t count;
     struct image image; /* the last picture */
     size_t differing;   /* pixels, in bits, on the device and of the reference */
     json_t *pictures;   /* NULL unless wanted */
 };
 
-/* Puts the settings worth measuring to bench->points, which has room for all, a family's cheapest first. */
+/* Puts the settings worth measuring to the points, a family's cheapest first. */
 void bench_settings(struct bench *bench);
 
-/* Allocates the points, and measures them: first each of its settings once, against the truth, and then all
+/* Puts these to the points and measures them: first each once, with its error against the truth, and then all
  * in rounds. */
 enum status bench_measure(struct bench *bench);
-void bench_point_destroy(struct bench_point *point);
 
 #endif

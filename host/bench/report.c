@@ -72,10 +72,6 @@ enum status report_pictures(const struct image *image, const struct image *refer
     view.reference = reference;
     if (status == STATUS_DONE && reference)
         status = add_picture(*pictures, "heatmap", &view);
-    if (status != STATUS_DONE) {
-        json_decref(*pictures);
-        *pictures = NULL;
-    }
     return status;
 }
 

@@ -1,5 +1,4 @@
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/clock.h"
 #include "bench/document.h"
@@ -122,11 +121,7 @@ enum status bench_scene(const struct bench_options *options, const char *path, j
     progress_end(&bench.progress);
     if (status == STATUS_DONE)
         status = bench_describe(&bench, scene);
-    for (size_t i = 0; i < bench.count; ++i)
-        bench_point_destroy(&bench.points[i]);
-    free(bench.points);
     json_decref(bench.pictures);
-    image_destroy(&bench.image);
     grid_pixels_destroy(&bench.truth.pixels);
     grid_pixels_destroy(&bench.filtered.pixels);
     job_destroy(&bench.job);
