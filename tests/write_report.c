@@ -1,7 +1,7 @@
 /* write_report DOCUMENT PAGE.html: writes the report of a bench document. */
 #include <stdio.h>
 
-#include "bench/report.h"
+#include "bench/bench.h"
 
 int main(int argc, char **argv)
 {

@@ -1,5 +1,3 @@
-#include "bench/compare.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -37,14 +35,14 @@ static bool same_text(const json_t *a, const json_t *b, const char *key)
     return strcmp(bench_text(a, key), bench_text(b, key)) == 0;
 }
 
-/* The element of the array with the same texts at both keys; NULL if there is none. */
-static const json_t *find(const json_t *array, const json_t *like, const char *key, const char *other_key)
+/* The element of the array with the same text at the key; NULL if there is none. */
+static const json_t *find(const json_t *array, const json_t *like, const char *key)
 {
     const json_t *element;
     size_t i;
     json_array_foreach(array, i, element)
     {
-        if (same_text(element, like, key) && same_text(element, like, other_key))
+        if (same_text(element, like, key))
             return element;
     }
     return NULL;
@@ -57,11 +55,6 @@ struct pair {
     bool on_cpu;
 };
 
-/* How the machine as a whole has changed from one bench to the other, as the settings of one backend tell. */
-struct drift {
-    double change, variance; /* 0 where they do not tell */
-};
-
 struct comparing {
     FILE *stream;
     bool times;              /* can be compared */
@@ -69,16 +62,12 @@ struct comparing {
     struct pair pairs[BENCH_MAX_SETTINGS];
     size_t count;
     double old_spread, new_spread; /* typical ones, relative */
-    struct drift drifts[2];        /* of the device, of the CPU */
     size_t compared, worse, better;
 };
 
-/* Distance of the quartiles by the median. */
 static double relative_spread(const json_t *point)
 {
-    const json_t *quartiles = json_object_get(point, "time_quartiles_ms");
-    double low = json_number_value(json_array_get(quartiles, 0));
-    double spread = (json_number_value(json_array_get(quartiles, 1)) - low) / bench_number(point, "time_ms");
+    double spread = bench_spread_ms(point) / bench_number(point, "time_ms");
     return spread >= 0 && isfinite(spread) ? spread : 0;
 }
 
@@ -88,7 +77,9 @@ static double median(double *values, size_t count)
     return sorted_quantile(values, count, 0.5);
 }
 
-static struct drift find_drift(const struct comparing *comparing, bool on_cpu)
+/* How the machine as a whole has changed from one bench to the other, as the settings of one backend tell:
+ * the median change and its variance, both 0 where they do not tell. */
+static double find_drift(const struct comparing *comparing, bool on_cpu, double *variance)
 {
     double changes[BENCH_MAX_SETTINGS], sum = 0, squares = 0;
     size_t count = 0;
@@ -100,44 +91,43 @@ static struct drift find_drift(const struct comparing *comparing, bool on_cpu)
         sum += pair->change;
         squares += pair->change * pair->change;
     }
-    if (count < 2)
-        return (struct drift){0, 0};
-    double n = (double)count, variance = fmax(squares - sum * sum / n, 0) / (n - 1);
-    return (struct drift){median(changes, count), median_factor * variance / n};
+    double n = (double)count;
+    *variance = count < 2 ? 0 : median_factor * fmax(squares - sum * sum / n, 0) / (n - 1) / n;
+    return count < 2 ? 0 : median(changes, count);
 }
 
 static void find_pairs(struct comparing *comparing)
 {
     double old_spreads[BENCH_MAX_SETTINGS], new_spreads[BENCH_MAX_SETTINGS];
     const json_t *point;
-    size_t i;
-    comparing->count = 0;
+    size_t i, count = 0;
     json_array_foreach(json_object_get(comparing->new, "points"), i, point)
     {
-        const json_t *old = find(json_object_get(comparing->old, "points"), point, "family", "options");
-        if (!old || comparing->count == BENCH_MAX_SETTINGS)
+        const json_t *old = find(json_object_get(comparing->old, "points"), point, "options");
+        if (!old || count == BENCH_MAX_SETTINGS)
             continue;
-        old_spreads[comparing->count] = relative_spread(old);
-        new_spreads[comparing->count] = relative_spread(point);
-        comparing->pairs[comparing->count++] = (struct pair){
+        old_spreads[count] = relative_spread(old);
+        new_spreads[count] = relative_spread(point);
+        comparing->pairs[count++] = (struct pair){
             .old = old,
             .new = point,
             .change = log(bench_number(point, "time_ms") / bench_number(old, "time_ms")),
             .on_cpu = strcmp(bench_text(point, "backend"), "cpu") == 0,
         };
     }
-    comparing->old_spread = median(old_spreads, comparing->count);
-    comparing->new_spread = median(new_spreads, comparing->count);
-    for (int on_cpu = 0; on_cpu < 2; ++on_cpu)
-        comparing->drifts[on_cpu] = find_drift(comparing, on_cpu);
+    comparing->count = count;
+    comparing->old_spread = median(old_spreads, count);
+    comparing->new_spread = median(new_spreads, count);
 }
 
-static void note_change(struct comparing *comparing, const struct pair *pair, bool worse, const char *what,
-                        double old_value, double new_value, const char *unit)
+/* Notes a change for the better or the worse, which is up, and says so with one of the two texts. */
+static void note_change(struct comparing *comparing, const struct pair *pair, const char *const texts[2],
+                        double before, double after, const char *unit)
 {
     const char *options = bench_text(pair->new, "options");
+    const bool worse = after > before;
     fprintf(comparing->stream, "%s: %s: %s: %.3g%s, was %.3g%s\n", bench_text(comparing->new, "scene"),
-            *options ? options : "as the scene says", what, new_value, unit, old_value, unit);
+            *options ? options : "as the scene says", texts[worse], after, unit, before, unit);
     comparing->worse += worse;
     comparing->better += !worse;
 }
@@ -156,33 +146,31 @@ static bool is_beyond(double change, double variance)
 
 static void compare_times(struct comparing *comparing, const struct pair *pair)
 {
-    const struct drift *control = &comparing->drifts[!pair->on_cpu];
+    double drift_variance, own = pair->change - find_drift(comparing, !pair->on_cpu, &drift_variance);
     double variance =
         time_variance(pair->old, comparing->old_spread) + time_variance(pair->new, comparing->new_spread);
-    double own = pair->change - control->change;
-    if (!is_beyond(pair->change, variance) || own * pair->change < 0 ||
-        !is_beyond(own, variance + control->variance))
-        return;
-    note_change(comparing, pair, pair->change > 0, pair->change > 0 ? "SLOWER" : "faster",
-                bench_number(pair->old, "time_ms"), bench_number(pair->new, "time_ms"), " ms");
+    if (is_beyond(pair->change, variance) && own * pair->change >= 0 &&
+        is_beyond(own, variance + drift_variance))
+        note_change(comparing, pair, (const char *const[]){"faster", "SLOWER"},
+                    bench_number(pair->old, "time_ms"), bench_number(pair->new, "time_ms"), " ms");
 }
 
 static void compare_errors(struct comparing *comparing, const struct pair *pair)
 {
-    static const char *const keys[] = {"rmse", "max"};
-    static const char *const texts[][2] = {{"more accurate, RMSE", "LESS ACCURATE, RMSE"},
-                                           {"more accurate, largest error", "LESS ACCURATE, largest error"}};
+    static const struct {
+        const char *key, *texts[2];
+    } errors[] = {{"rmse", {"more accurate, RMSE", "LESS ACCURATE, RMSE"}},
+                  {"max", {"more accurate, largest error", "LESS ACCURATE, largest error"}}};
     const json_t *old = json_object_get(pair->old, "error"), *new = json_object_get(pair->new, "error");
     bool sampled =
         bench_number(pair->new, "samples") > 1 || json_is_true(json_object_get(comparing->new, "sampled"));
-    double noise = sampled ? standard_errors * hypot(bench_number(old, "rmse_uncertainty"),
-                                                     bench_number(new, "rmse_uncertainty"))
-                           : 0;
+    double noise =
+        standard_errors * hypot(bench_number(old, "rmse_uncertainty"), bench_number(new, "rmse_uncertainty"));
     for (int i = 0; i < (sampled ? 1 : 2); ++i) {
-        double before = bench_number(old, keys[i]), after = bench_number(new, keys[i]);
-        if (before == after || !(fabs(after - before) > fmax(noise, printing_error * before)))
+        double before = bench_number(old, errors[i].key), after = bench_number(new, errors[i].key);
+        if (before == after || !(fabs(after - before) > fmax(sampled ? noise : 0, printing_error * before)))
             continue;
-        note_change(comparing, pair, after > before, texts[i][after > before], before, after, "");
+        note_change(comparing, pair, errors[i].texts, before, after, "");
         return;
     }
 }
@@ -211,12 +199,13 @@ static void compare_scenes(struct comparing *comparing)
     comparing->compared += comparing->count;
 }
 
-/* Text or integer as text; "none" where there is none. */
-static const char *value_text(const json_t *object, const char *key, char number[32])
+/* A text or an integer, or else "none". */
+static void write_value(const json_t *value, char text[256])
 {
-    const json_t *value = json_object_get(object, key);
-    snprintf(number, 32, "%lld", (long long)json_integer_value(value));
-    return json_is_integer(value) ? number : value ? bench_text(object, key) : "none";
+    if (json_is_integer(value))
+        snprintf(text, 256, "%lld", (long long)json_integer_value(value));
+    else
+        snprintf(text, 256, "%s", json_is_string(value) ? json_string_value(value) : "none");
 }
 
 /* Says where the bench ran elsewhere, and returns whether it did not. */
@@ -225,9 +214,9 @@ static bool same_machine(const json_t *old, const json_t *new, FILE *stream)
     static const char *const keys[] = {"processor", "cores", "device", "driver"};
     bool same = true;
     for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i) {
-        char old_number[32], new_number[32];
-        const char *before = value_text(old, keys[i], old_number),
-                   *now = value_text(new, keys[i], new_number);
+        char before[256], now[256];
+        write_value(json_object_get(old, keys[i]), before);
+        write_value(json_object_get(new, keys[i]), now);
         if (strcmp(before, now) == 0)
             continue;
         fprintf(stream, "another machine: %s %s, was %s\n", keys[i], now, before);
@@ -246,7 +235,7 @@ enum status bench_compare(const json_t *old, const json_t *new, FILE *stream)
     comparing.times = same_machine(json_object_get(old, "machine"), json_object_get(new, "machine"), stream);
     json_array_foreach(json_object_get(new, "scenes"), i, scene)
     {
-        comparing.old = find(json_object_get(old, "scenes"), scene, "scene", "scene");
+        comparing.old = find(json_object_get(old, "scenes"), scene, "scene");
         comparing.new = scene;
         if (comparing.old)
             compare_scenes(&comparing);

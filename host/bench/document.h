@@ -1,24 +1,7 @@
 #ifndef VKWHITTED_BENCH_DOCUMENT_H
 #define VKWHITTED_BENCH_DOCUMENT_H
 
-#include <jansson.h>
-
 #include "bench/measure.h"
-#include "check/judge.h"
-
-/* Everything that a bench has found out about a scene. */
-struct bench_result {
-    const char *path;
-    struct picture_settings picture; /* the scene's */
-    struct bench_point *points;
-    size_t count;
-    struct ground_truth truth, filtered; /* for all families but samples; for those */
-    bool sampled;                        /* the scene's lights are */
-    bool has_agreement;
-    size_t differing;          /* pixels, in bits, on the device and of the reference */
-    struct judgement rounding; /* of float against quad */
-    size_t rounding_pixels;
-};
 
 /* Marks those of the points with the same truth that none beats: none takes no more time with no more error,
  * and less of one. The error is that which 99.9 % of the pixels are within: of a picture with few
@@ -29,17 +12,22 @@ void bench_mark_pareto(struct bench_point *points, size_t count);
 /* The point of the least time with an error of at most `within`, those of pixel samples apart; NULL: none. */
 const struct bench_point *bench_fastest_within(const struct bench_point *points, size_t count, double within);
 
-/* The document's head, with the command line, its list of scenes empty. NULL without memory, as below. */
-json_t *bench_document(int argc, char **argv, bool quick, const struct vulkan_context *context);
+/* Marks the finished bench's points, and describes it as a scene of the document. STATUS_UNABLE (reported)
+ * without memory or where its path is not UTF-8. */
+enum status bench_describe(struct bench *bench, json_t **scene);
 
-/* A scene of the document. */
-json_t *bench_scene_document(const struct bench_result *result);
+/* The picture as "render" and, with a reference, where it differs from that as "heatmap" (see heatmap.h),
+ * each a PNG in base64, in an object that the caller frees, also on failure (reported). */
+enum status report_pictures(const struct image *image, const struct image *reference, json_t **pictures);
 
 /* A number of the document: infinite where it is null, which stands for what is not finite, or missing. */
 double bench_number(const json_t *object, const char *key);
 
 /* A text of the document; "" where it is missing. */
 const char *bench_text(const json_t *object, const char *key);
+
+/* The distance of the quartiles of the point's times. */
+double bench_spread_ms(const json_t *point);
 
 /* Whether the point's errors are against the truth for pixel samples. */
 bool bench_is_filtered(const json_t *point);

@@ -4,24 +4,126 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/interrupt.h"
 #include "base/statistics.h"
 #include "image/srgb.h"
 
-enum { ALL_BOUNCES = 64, STRIDE_OF_BOUNCES = 4 };
+enum { PILOT_PIXELS = 300, ALL_BOUNCES = 64, STRIDE_OF_BOUNCES = 4, CONVERGED_SAMPLES = 65536 };
 
 static const double most_rays_a_pixel = 2000, relative_floor = 1e-3;
+
+struct pixel_grid pixel_grid_fitting(unsigned width, unsigned height, double most_pixels)
+{
+    double step = ceil(sqrt((double)width * height / fmax(most_pixels, 1)));
+    struct pixel_grid grid = {.step = (unsigned)fmax(1, fmin(step, fmin(width, height)))};
+    grid.first = (grid.step - 1) / 2;
+    grid.columns = (width - grid.first + grid.step - 1) / grid.step;
+    grid.rows = (height - grid.first + grid.step - 1) / grid.step;
+    return grid;
+}
+
+static struct reference_rays render_pixel(const struct packed_scene *scene, enum precision precision,
+                                          size_t pixel, const struct grid_pixels *pixels)
+{
+    static void (*const renderers[])(const struct packed_scene *, struct reference_window, int,
+                                     struct reference_picture *) = {
+        reference_render_float, reference_render_double, reference_render_quad};
+    const int place = (int)pixel_grid_place(&pixels->grid, pixel, (unsigned)scene->width);
+    const struct reference_window window = {place % scene->width, place / scene->width, 1, 1};
+    struct reference_picture picture = {.rgb = &pixels->rgb[3 * pixel],
+                                        .signatures = &pixels->signatures[pixel]};
+    renderers[precision](scene, window, 1, &picture);
+    if (pixels->explanations)
+        reference_explain_quad(scene, window, 1, &pixels->explanations[pixel]);
+    return picture.rays;
+}
+
+/* Renders the pixels of pixels->grid. Without a share, progress may be NULL. */
+static enum status render(const struct packed_scene *scene, enum precision precision, bool explained,
+                          struct progress *progress, unsigned share, struct grid_pixels *pixels)
+{
+    const size_t count = pixel_grid_count(&pixels->grid);
+    size_t done = 0;
+    pixels->rgb = calloc(count, 3 * sizeof *pixels->rgb);
+    pixels->signatures = calloc(count, sizeof *pixels->signatures);
+    pixels->explanations = explained ? calloc(count, sizeof *pixels->explanations) : NULL;
+    if (!pixels->rgb || !pixels->signatures || (explained && !pixels->explanations)) {
+        log_error("no memory for %zu pixels of the reference", count);
+        grid_pixels_destroy(pixels);
+        return STATUS_UNABLE;
+    }
+#pragma omp parallel for schedule(dynamic)
+    for (size_t i = 0; i < count; ++i) {
+        if (interrupt_requested())
+            continue;
+        struct reference_rays rays = render_pixel(scene, precision, i, pixels);
+#pragma omp critical
+        {
+            pixels->rays.primary += rays.primary;
+            pixels->rays.secondary += rays.secondary;
+            pixels->rays.shadow += rays.shadow;
+            size_t before = share * done / count, now = share * ++done / count;
+            if (now > before)
+                progress_advance(progress, now - before);
+        }
+    }
+    if (!interrupt_requested())
+        return STATUS_DONE;
+    grid_pixels_destroy(pixels);
+    return STATUS_INTERRUPTED;
+}
+
+/* Estimates by some of the picture's pixels, with one sample of everything: secondary rays a pixel, and rays
+ * times objects a pixel with all samples. */
+static enum status estimate(const struct packed_scene *scene, double *secondary, double *work)
+{
+    struct packed_scene pilot = *scene;
+    struct grid_pixels result = {
+        .grid = pixel_grid_fitting((unsigned)scene->width, (unsigned)scene->height, PILOT_PIXELS)};
+    const struct reference_rays *rays = &result.rays;
+    double lights = scene->quad_light_count > 0 ? scene->light_samples : 1;
+    pilot.samples = pilot.light_samples = 1;
+    enum status status = render(&pilot, PRECISION_FLOAT, false, NULL, 0, &result);
+    if (status != STATUS_DONE)
+        return status;
+    double pixels = (double)pixel_grid_count(&result.grid);
+    *secondary = (double)rays->secondary / pixels;
+    *work = ((double)(rays->primary + rays->secondary) + (double)rays->shadow * lights) * scene->samples *
+            (scene->sphere_count + scene->plane_count + 1) / pixels;
+    grid_pixels_destroy(&result);
+    return STATUS_DONE;
+}
+
+enum status grid_render(const struct packed_scene *scene, enum precision precision, bool explained,
+                        double work, struct progress *progress, unsigned share, struct grid_pixels *pixels)
+{
+    double secondary, work_a_pixel;
+    *pixels = (struct grid_pixels){0};
+    enum status status = estimate(scene, &secondary, &work_a_pixel);
+    if (status != STATUS_DONE)
+        return status;
+    pixels->grid = pixel_grid_fitting((unsigned)scene->width, (unsigned)scene->height, work / work_a_pixel);
+    return render(scene, precision, explained, progress, share, pixels);
+}
+
+void grid_pixels_destroy(struct grid_pixels *pixels)
+{
+    free(pixels->rgb);
+    free(pixels->signatures);
+    free(pixels->explanations);
+    *pixels = (struct grid_pixels){0};
+}
 
 enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *most)
 {
     struct packed_scene pilot = *packed;
     *most = (unsigned)packed->max_bounces;
     while (*most < ALL_BOUNCES) {
-        struct reference_rays rays;
-        double pixels;
+        double secondary, work;
         unsigned next = *most + STRIDE_OF_BOUNCES;
         pilot.max_bounces = (int)(next < ALL_BOUNCES ? next : ALL_BOUNCES);
-        enum status status = grid_count_rays(&pilot, &rays, &pixels);
-        if (status != STATUS_DONE || (double)rays.secondary > most_rays_a_pixel * pixels)
+        enum status status = estimate(&pilot, &secondary, &work);
+        if (status != STATUS_DONE || secondary > most_rays_a_pixel)
             return status;
         *most = (unsigned)pilot.max_bounces;
     }
@@ -29,19 +131,18 @@ enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *mo
 }
 
 enum status ground_truth_create(const struct scene *scene, struct picture_settings settings,
-                                enum truth_kind kind, const struct truth_effort *effort,
-                                struct progress *progress, double share, struct ground_truth *truth)
+                                enum truth_kind kind, double work, struct progress *progress, unsigned share,
+                                struct ground_truth *truth)
 {
     struct packed_scene packed;
-    enum grid_output output = kind == TRUTH_EXACT ? GRID_QUAD : GRID_DOUBLE;
     char what[100], where[100] = "every pixel";
     *truth = (struct ground_truth){0};
     if (kind == TRUTH_OF_SAMPLES) {
-        settings.samples = effort->samples;
+        settings.samples = CONVERGED_SAMPLES;
         settings.light_samples = 1; /* of each pixel sample: together as many as those */
         snprintf(what, sizeof what, "double with %u samples a pixel", settings.samples);
     } else if (kind == TRUTH_OF_LIGHTS) {
-        settings.light_samples = effort->samples;
+        settings.light_samples = CONVERGED_SAMPLES;
         snprintf(what, sizeof what, "double with %u bounces and %u light samples", settings.max_bounces,
                  settings.light_samples);
     } else {
@@ -50,8 +151,8 @@ enum status ground_truth_create(const struct scene *scene, struct picture_settin
     enum status status = pack_scene(scene, &settings, &packed);
     if (status != STATUS_DONE)
         return status;
-    status = grid_render(&packed, output, kind == TRUTH_EXACT ? effort->quad : effort->with_double, progress,
-                         share, &truth->pixels);
+    status = grid_render(&packed, kind == TRUTH_EXACT ? PRECISION_QUAD : PRECISION_DOUBLE, false, work,
+                         progress, share, &truth->pixels);
     pack_destroy(&packed);
     const struct pixel_grid *grid = &truth->pixels.grid;
     if (grid->step > 1)

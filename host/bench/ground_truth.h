@@ -1,20 +1,52 @@
 #ifndef VKWHITTED_BENCH_GROUND_TRUTH_H
 #define VKWHITTED_BENCH_GROUND_TRUTH_H
 
-#include "bench/pixel_grid.h"
+#include "base/progress.h"
 #include "scene/pack.h"
+#include "tracer/render.h"
+
+/* Every step-th pixel of a picture in both directions. */
+struct pixel_grid {
+    unsigned step, first, columns, rows;
+};
+
+/* The finest grid over the picture with about so many pixels at most, 1 at least. */
+struct pixel_grid pixel_grid_fitting(unsigned width, unsigned height, double most_pixels);
+
+static inline size_t pixel_grid_count(const struct pixel_grid *grid)
+{
+    return (size_t)grid->columns * grid->rows;
+}
+
+/* The index in the picture of the grid's pixel. */
+static inline size_t pixel_grid_place(const struct pixel_grid *grid, size_t pixel, unsigned picture_width)
+{
+    size_t x = grid->first + pixel % grid->columns * grid->step;
+    size_t y = grid->first + pixel / grid->columns * grid->step;
+    return y * picture_width + x;
+}
+
+/* What the reference makes of a grid's pixels, row by row. */
+struct grid_pixels {
+    struct pixel_grid grid;
+    double *rgb; /* 3 a pixel */
+    uint32_t *signatures;
+    struct reference_explanation *explanations; /* in quad; NULL unless asked for */
+    struct reference_rays rays;
+};
+
+/* Renders pixels of the picture with the reference on all processors: the finest grid that is about so much
+ * work, in rays times objects. Advances progress by `share` in all. On STATUS_DONE the caller frees the
+ * pixels; otherwise they are empty, and the reason is reported, except for STATUS_INTERRUPTED. */
+enum status grid_render(const struct packed_scene *scene, enum precision precision, bool explained,
+                        double work, struct progress *progress, unsigned share, struct grid_pixels *pixels);
+void grid_pixels_destroy(struct grid_pixels *pixels);
 
 /* What errors are measured against: the reference at high precision, as far as it is affordable, which may be
  * at some of the pixels only. What is computed depends on the scene and its size, not on the machine. */
 struct ground_truth {
     struct grid_pixels pixels;
     char text[200]; /* what it is, for people */
-};
-
-/* How much work truths may be: rays times objects. */
-struct truth_effort {
-    double quad, with_double, explained; /* explained: quad with the error analysis */
-    unsigned samples;                    /* of what is sampled */
 };
 
 /* The most bounces, at least the scene's and otherwise at most 64, with which rays do not multiply beyond
@@ -25,11 +57,10 @@ enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *mo
  * light samples; or in double with converged pixel samples. */
 enum truth_kind { TRUTH_EXACT, TRUTH_OF_LIGHTS, TRUTH_OF_SAMPLES };
 
-/* Renders the truth, and advances progress by `share`. On failure (reported) the truth is empty; otherwise
- * the caller frees it. */
+/* Renders the truth as grid_render() does; so is what happens on failure. */
 enum status ground_truth_create(const struct scene *scene, struct picture_settings settings,
-                                enum truth_kind kind, const struct truth_effort *effort,
-                                struct progress *progress, double share, struct ground_truth *truth);
+                                enum truth_kind kind, double work, struct progress *progress, unsigned share,
+                                struct ground_truth *truth);
 
 /* How far a picture is from the truth, at the truth's pixels. Infinite where a value is not finite. A pixel's
  * error is the largest over its channels; a relative error is |value - truth| / max(|truth|, 1e-3). */

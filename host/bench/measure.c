@@ -1,33 +1,21 @@
 #include "bench/measure.h"
 
-#include <stdlib.h>
+#include <math.h>
 
 #include "base/clock.h"
 #include "base/interrupt.h"
 #include "base/statistics.h"
 
-static struct render_plan plan_of(const struct bench_point *point)
+/* Renders a started point; on the CPU its picture replaces the image's. */
+static enum status run_point(struct bench_point *point, struct image *image, double *milliseconds)
 {
-    return (struct render_plan){
-        .scene = &point->packed,
-        .window = {0, 0, (unsigned)point->packed.width, (unsigned)point->packed.height},
-        .precision = point->setting.precision,
-        .threads = point->setting.threads,
-        .fast = point->setting.fast,
-        .quiet = true,
-    };
-}
-
-enum status bench_point_run(struct bench_point *point, struct image *image, double *milliseconds)
-{
-    struct render_plan plan = plan_of(point);
     if (point->tracer) {
         struct progress unseen;
         progress_start(&unseen, "", 1, true);
-        return tracer_render(point->tracer, plan.window, image, &unseen, milliseconds);
+        return tracer_render(point->tracer, point->plan.window, image, &unseen, milliseconds);
     }
     struct rendering rendering;
-    enum status status = render_on_cpu(&plan, &rendering);
+    enum status status = render_on_cpu(&point->plan, &rendering);
     if (status != STATUS_DONE)
         return status;
     *milliseconds = rendering.first_dispatch_ms;
@@ -37,132 +25,151 @@ enum status bench_point_run(struct bench_point *point, struct image *image, doub
     return STATUS_DONE;
 }
 
-enum status bench_point_start(struct vulkan_context *context, const struct scene *scene,
-                              struct bench_point *point, struct image *image)
-{
-    struct bench_setting *setting = &point->setting;
-    bool is_double = setting->precision == PRECISION_DOUBLE, on_device = setting->backend == BACKEND_VULKAN;
-    image_destroy(image);
-    enum status status = image_create(setting->picture.width, setting->picture.height, image);
-    if (status == STATUS_DONE && on_device && is_double)
-        status = image_widen(image);
-    double start = clock_ms();
-    if (status == STATUS_DONE)
-        status = pack_scene(scene, &setting->picture, &point->packed);
-    if (status == STATUS_DONE && on_device)
-        status = tracer_create(context, &point->packed,
-                               &(struct tracer_options){.double_precision = is_double, .fast = setting->fast},
-                               &point->tracer);
-    point->setup_ms = clock_ms() - start;
-    if (status == STATUS_DONE)
-        status = bench_point_run(point, image, &point->first_ms);
-    if (status != STATUS_DONE)
-        bench_point_destroy(point);
-    return status;
-}
-
-void bench_point_destroy(struct bench_point *point)
+static void stop_point(struct bench_point *point)
 {
     tracer_destroy(&point->tracer);
     pack_destroy(&point->packed);
 }
 
-/* The order of a round: the CPU's points spread evenly among the device's. */
-static void interleave(const struct bench_point *points, size_t count, size_t *order)
+/* Readies the point for rendering, renders it once into the bench's image, which is made anew, and counts its
+ * rays. On failure (reported) the point holds nothing. */
+static enum status start_point(struct bench *bench, struct bench_point *point)
 {
-    size_t totals[2] = {0}, placed[2] = {0}, next[2] = {0}; /* device, CPU */
-    for (size_t i = 0; i < count; ++i)
-        ++totals[points[i].setting.backend == BACKEND_CPU];
-    for (size_t i = 0; i < count; ++i) {
-        bool cpu = placed[0] == totals[0] || (placed[1] < totals[1] && placed[1] * count <= i * totals[1]);
-        while ((points[next[cpu]].setting.backend == BACKEND_CPU) != cpu)
-            ++next[cpu];
-        order[i] = next[cpu]++;
-        ++placed[cpu];
-    }
-}
-
-static enum status run_warm(struct bench_point *point, struct image *image)
-{
+    const struct picture_settings *picture = &point->picture;
+    bool is_double = point->plan.precision == PRECISION_DOUBLE, on_device = point->backend == BACKEND_VULKAN;
+    point->plan.scene = &point->packed;
+    point->plan.window = (struct window){0, 0, picture->width, picture->height};
+    point->plan.quiet = true;
+    image_destroy(&bench->image);
+    enum status status = image_create(picture->width, picture->height, &bench->image);
+    if (status == STATUS_DONE && on_device && is_double)
+        status = image_widen(&bench->image);
     double start = clock_ms();
-    enum status status = interrupt_requested()
-                             ? STATUS_INTERRUPTED
-                             : bench_point_run(point, image, &point->runs_ms[point->run_count]);
-    point->spent_ms += clock_ms() - start;
-    point->run_count += status == STATUS_DONE;
+    if (status == STATUS_DONE)
+        status = pack_scene(&bench->job.scene, picture, &point->packed);
+    if (status == STATUS_DONE && on_device)
+        status =
+            tracer_create(bench->options->context, &point->packed,
+                          &(struct tracer_options){.double_precision = is_double, .fast = point->plan.fast},
+                          &point->tracer);
+    point->setup_ms = clock_ms() - start;
+    if (status == STATUS_DONE)
+        status = run_point(point, &bench->image, &point->first_ms);
+    if (status == STATUS_DONE && on_device) {
+        struct render_plan in_float = point->plan;
+        in_float.precision = PRECISION_FLOAT;
+        status = rays_on_device(bench->options->context, &in_float, &point->rays);
+    }
+    if (status != STATUS_DONE)
+        stop_point(point);
     return status;
 }
 
-static bool is_content(const struct bench_point *point, const struct run_limits *limits, double elapsed)
+/* Whether the point takes too long, by the last one of its family: times are in proportion to samples. That
+ * one is run warm if its first run, which compiles, does not tell. */
+static enum status foresee(struct bench *bench, const struct bench_point *point, bool *too_long)
 {
-    if (point->run_count < limits->least_runs)
-        return false;
-    return point->run_count >= limits->most_runs || point->spent_ms >= limits->point_ms ||
-           elapsed >= limits->all_ms;
+    struct bench_point *last = bench->count > 0 ? &bench->points[bench->count - 1] : NULL;
+    *too_long = false;
+    if (!last || last->family != point->family)
+        return STATUS_DONE;
+    const struct picture_settings *now = &point->picture, *then = &last->picture;
+    double more = (double)now->samples / then->samples * now->light_samples / then->light_samples;
+    double longest_ms = bench->effort->longest_run_ms / more, warm_ms = 0;
+    if (more <= 1 || last->first_ms <= longest_ms)
+        return STATUS_DONE;
+    enum status status = run_point(last, &bench->image, &warm_ms);
+    *too_long = warm_ms > longest_ms;
+    return status;
 }
 
-static void summarise(struct bench_point *point)
+/* Starts the points, and measures their errors by their first pictures. What takes too long or the device
+ * cannot do is left out. */
+static enum status start_points(struct bench *bench)
 {
-    sort_doubles(point->runs_ms, point->run_count);
-    point->median_ms = sorted_quantile(point->runs_ms, point->run_count, 0.5);
-    point->quartiles_ms[0] = sorted_quantile(point->runs_ms, point->run_count, 0.25);
-    point->quartiles_ms[1] = sorted_quantile(point->runs_ms, point->run_count, 0.75);
-}
-
-enum status bench_run_rounds(struct bench_point *points, size_t count, const struct run_limits *limits,
-                             struct image *image, struct progress *progress, double share)
-{
-    size_t *order = calloc(count + 1, sizeof *order);
-    if (!order) {
-        log_error("no memory for %zu points", count);
-        return STATUS_UNABLE;
-    }
-    interleave(points, count, order);
+    const size_t count = bench->count;
     enum status status = STATUS_DONE;
-    double start = clock_ms();
+    bench->count = 0;
+    for (size_t i = 0; i < count && status == STATUS_DONE; ++i) {
+        struct bench_point *point = &bench->points[bench->count];
+        bool too_long;
+        *point = bench->points[i];
+        if (clock_ms() - bench->start_ms > bench->effort->whole_ms && point->family >= FAMILY_MAX_ERROR) {
+            log_warning("%s: no time for %zu of %zu settings", bench->job.scene.path, count - i, count);
+            break;
+        }
+        progress_advance(&bench->progress, START_SHARE / count);
+        status = foresee(bench, point, &too_long);
+        if (status != STATUS_DONE || too_long)
+            continue;
+        status = start_point(bench, point);
+        if (status == STATUS_DONE) {
+            ++bench->count;
+            status = bench_error_measure(&bench->image,
+                                         point->family == FAMILY_SAMPLES ? &bench->filtered : &bench->truth,
+                                         &point->error);
+        } else if (status == STATUS_UNABLE) {
+            log_warning("%s: left out: %s", bench->job.scene.path, point->label);
+            status = STATUS_DONE;
+        }
+    }
+    return status;
+}
+
+/* In rounds, points stand in the order of multiples of STRIDE, modulo BENCH_MAX_SETTINGS: near the golden
+ * section of that, it spreads those that are neighbours in the list, as are the CPU's, evenly. */
+enum { STRIDE = 79 };
+
+/* Runs all points warm in rounds, one run of each in a round, so that what disturbs the machine for a while
+ * disturbs all of them; every other round runs backward, so that a steady drift cancels. */
+static enum status run_rounds(struct bench *bench)
+{
+    const struct bench_effort *effort = bench->effort;
+    const double start = clock_ms();
+    const double runs_ms = fmin(effort->runs.all_ms, fmax(effort->whole_ms - (start - bench->start_ms), 1));
+    enum status status = STATUS_DONE;
     uint64_t shown = 0;
     bool going_on = true;
     for (size_t round = 0; going_on && status == STATUS_DONE; ++round) {
         going_on = false;
-        for (size_t i = 0; i < count && status == STATUS_DONE; ++i) {
-            struct bench_point *point = &points[order[round % 2 ? count - 1 - i : i]];
-            double elapsed = clock_ms() - start;
-            if (is_content(point, limits, elapsed))
+        for (size_t slot = 0; slot < BENCH_MAX_SETTINGS && status == STATUS_DONE; ++slot) {
+            size_t i = (round % 2 ? BENCH_MAX_SETTINGS - 1 - slot : slot) * STRIDE % BENCH_MAX_SETTINGS;
+            if (i >= bench->count)
+                continue;
+            struct bench_point *point = &bench->points[i];
+            const double run_start = clock_ms();
+            double elapsed = fmin((run_start - start) / runs_ms, 1); /* of the time */
+            bool is_over = point->spent_ms >= effort->runs.point_ms || elapsed >= 1;
+            if (point->run_count >= (is_over ? effort->runs.least : effort->runs.most))
                 continue;
             going_on = true;
-            status = run_warm(point, image);
-            uint64_t now = (uint64_t)(elapsed < limits->all_ms ? share * elapsed / limits->all_ms : share);
-            progress_advance(progress, now - shown);
+            status = interrupt_requested()
+                         ? STATUS_INTERRUPTED
+                         : run_point(point, &bench->image, &point->runs_ms[point->run_count]);
+            point->spent_ms += clock_ms() - run_start;
+            point->run_count += status == STATUS_DONE;
+            uint64_t now = (uint64_t)(RUNS_SHARE * elapsed);
+            progress_advance(&bench->progress, now - shown);
             shown = now;
         }
     }
-    for (size_t i = 0; i < count; ++i)
-        summarise(&points[i]);
-    free(order);
     return status;
 }
 
-/* Whether two settings differ in speed or rounding alone. */
-static bool same_picture(const struct picture_settings *a, const struct picture_settings *b)
+enum status bench_measure(struct bench *bench)
 {
-    return a->max_bounces == b->max_bounces && a->samples == b->samples &&
-           a->light_samples == b->light_samples && a->has_max_error == b->has_max_error &&
-           a->max_error == b->max_error;
-}
-
-enum status bench_count_rays(struct vulkan_context *context, struct bench_point *points, size_t count)
-{
-    enum status status = STATUS_DONE;
-    for (size_t i = 0; i < count && status == STATUS_DONE; ++i) {
-        struct bench_point *point = &points[i];
-        struct render_plan plan = plan_of(point);
-        for (size_t k = 0; k < count && point->rays.primary == 0; ++k)
-            if (points[k].setting.precision == PRECISION_FLOAT &&
-                same_picture(&points[k].setting.picture, &point->setting.picture))
-                point->rays = points[k].rays;
-        plan.precision = PRECISION_FLOAT;
-        if (point->rays.primary == 0)
-            status = rays_on_device(context, &plan, &point->rays);
+    bench_settings(bench);
+    enum status status = start_points(bench);
+    if (status == STATUS_DONE)
+        status = run_rounds(bench);
+    for (size_t i = 0; i < bench->count; ++i) {
+        struct bench_point *point = &bench->points[i];
+        sort_doubles(point->runs_ms, point->run_count);
+        point->median_ms = sorted_quantile(point->runs_ms, point->run_count, 0.5);
+        point->quartiles_ms[0] = sorted_quantile(point->runs_ms, point->run_count, 0.25);
+        point->quartiles_ms[1] = sorted_quantile(point->runs_ms, point->run_count, 0.75);
+        stop_point(point);
     }
+    image_destroy(&bench->image);
     return status;
 }

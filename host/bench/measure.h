@@ -1,50 +1,84 @@
 #ifndef VKWHITTED_BENCH_MEASURE_H
 #define VKWHITTED_BENCH_MEASURE_H
 
+#include "bench/bench.h"
 #include "bench/ground_truth.h"
-#include "bench/settings.h"
+#include "check/judge.h"
 
-enum { BENCH_MAX_RUNS = 51 };
+enum { BENCH_MAX_SETTINGS = 128, BENCH_MAX_RUNS = 51 }; /* there are 80 settings at most */
 
-/* A setting and what was measured of it. */
+/* The knobs that a bench turns, one at a time. */
+enum bench_family {
+    FAMILY_MODE, /* exact, fast, double */
+    FAMILY_CPU,
+    FAMILY_MAX_ERROR,
+    FAMILY_BOUNCES,
+    FAMILY_LIGHT_SAMPLES,
+    FAMILY_SAMPLES,
+};
+
+/* One way to render the scene, and what was measured of it. */
 struct bench_point {
-    struct bench_setting setting;
+    enum bench_family family;
+    enum backend backend;
+    struct picture_settings picture;
+    struct render_plan plan; /* what it renders, of the point's own packed scene; it must not move */
+    char label[48];          /* short, for people */
+    char options[96];        /* to paste: "" is what the scene says */
+
     struct packed_scene packed;
     struct tracer *tracer; /* on a device, ready to render */
     double setup_ms, first_ms;
-    double runs_ms[BENCH_MAX_RUNS]; /* of the warm runs; ascending after bench_run_rounds() */
+    double runs_ms[BENCH_MAX_RUNS]; /* of the warm runs; ascending in the end */
     size_t run_count;
     double spent_ms;
     double median_ms, quartiles_ms[2];
-    struct reference_rays rays;
+    struct reference_rays rays; /* of a device's points as they are in float */
     struct bench_error error;
     bool pareto;
 };
 
-/* Until when to go on. */
-struct run_limits {
-    size_t least_runs, most_runs; /* of a point */
-    double point_ms;              /* of a point, but for its least runs */
-    double all_ms;                /* of all points, but for their least runs */
+/* What a bench may cost. */
+struct bench_effort {
+    struct {
+        double quad, with_double, explained; /* explained: float, and quad with the error analysis */
+    } truth;                                 /* in rays times objects */
+    double longest_run_ms;                   /* a family ends where its next run would take longer */
+    struct {
+        size_t least, most;      /* of a point */
+        double point_ms, all_ms; /* of a point, of all points, but for their least runs */
+    } runs;
+    double whole_ms; /* a bench that has taken longer starts no more knobs and makes the least runs only */
 };
 
-/* Readies the point for rendering and renders it once into *image, which is made anew, with room for double
- * precision where that is asked for. On failure (reported) the point holds nothing. */
-enum status bench_point_start(struct vulkan_context *context, const struct scene *scene,
-                              struct bench_point *point, struct image *image);
+/* Of the progress bar. */
+enum { TRUTH_SHARE = 120, FILTERED_SHARE = 220, ROUNDING_SHARE = 120, START_SHARE = 240, RUNS_SHARE = 300 };
 
-/* Renders a started point once more; on the CPU its picture replaces the image's. */
-enum status bench_point_run(struct bench_point *point, struct image *image, double *milliseconds);
-void bench_point_destroy(struct bench_point *point);
+/* A bench of one scene. */
+struct bench {
+    const struct bench_options *options;
+    const struct bench_effort *effort;
+    double start_ms;
+    struct progress progress;
+    struct job job;                  /* the scene as it is */
+    struct picture_settings picture; /* the same */
+    bool has_secondary_rays, has_quad_lights;
+    unsigned deepest;                    /* bounces that a picture with all bounces may cost */
+    struct ground_truth truth, filtered; /* for all families but samples; for those */
+    struct judgement rounding;           /* of float against quad */
+    size_t rounding_pixels;
+    struct bench_point points[BENCH_MAX_SETTINGS];
+    size_t count;
+    struct image image; /* the last picture */
+    size_t differing;   /* pixels, in bits, on the device and of the reference */
+    json_t *pictures;   /* NULL unless wanted */
+};
 
-/* Runs all points warm in rounds, one run of each in a round, so that what disturbs the machine for a while
- * disturbs all of them; the CPU's points stand between the device's, and every other round runs backward, so
- * that a steady drift cancels. Advances progress by `share`. */
-enum status bench_run_rounds(struct bench_point *points, size_t count, const struct run_limits *limits,
-                             struct image *image, struct progress *progress, double share);
+/* Puts the settings worth measuring to the points, a family's cheapest first. */
+void bench_settings(struct bench *bench);
 
-/* Counts the rays of the points on a device, as they are in float, with another pipeline. Points that make
- * the same picture share them, also those that the CPU has counted as it rendered. */
-enum status bench_count_rays(struct vulkan_context *context, struct bench_point *points, size_t count);
+/* Puts these to the points and measures them: first each once, with its error against the truth, and then all
+ * in rounds. */
+enum status bench_measure(struct bench *bench);
 
 #endif

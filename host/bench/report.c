@@ -1,9 +1,8 @@
-#include "bench/report.h"
-
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/output_file.h"
+#include "bench/document.h"
 #include "check/heatmap.h"
 #include "image/formats.h"
 #include "image/srgb.h"
@@ -25,19 +24,16 @@ static void encode_row(const void *context, unsigned y, uint8_t *rgb)
         heatmap_color(view->image->rgb + start + i, view->reference->rgb + start + i, rgb + i);
 }
 
-/* RFC 4648, as a JSON text. NULL without memory. */
+/* RFC 4648, as a JSON text. A byte of 0 stands behind the bytes. NULL without memory. */
 static json_t *encode_base64(const char *bytes, size_t count)
 {
     static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     size_t size = (count + 2) / 3 * 4;
-    char *text = malloc(size + 1), *end = text;
-    for (size_t i = 0; i < count && text; i += 3) {
-        size_t here = count - i < 3 ? count - i : 3;
-        uint32_t group = 0;
-        for (size_t k = 0; k < 3; ++k)
-            group = group << 8 | (k < here ? (uint8_t)bytes[i + k] : 0);
-        for (size_t k = 0; k < 4; ++k)
-            *end++ = k <= here ? letters[group >> (18 - 6 * k) & 63] : '=';
+    char *text = malloc(size + 1);
+    for (size_t i = 0; i < size && text; ++i) {
+        size_t at = 6 * i / 8;
+        unsigned pair = at < count ? (unsigned)(uint8_t)bytes[at] << 8 | (uint8_t)bytes[at + 1] : 0;
+        text[i] = at < count ? letters[pair >> (10 - 6 * i % 8) & 63] : '=';
     }
     json_t *value = text ? json_stringn(text, size) : NULL;
     free(text);
@@ -76,11 +72,15 @@ enum status report_pictures(const struct image *image, const struct image *refer
     view.reference = reference;
     if (status == STATUS_DONE && reference)
         status = add_picture(*pictures, "heatmap", &view);
-    if (status != STATUS_DONE) {
-        json_decref(*pictures);
-        *pictures = NULL;
-    }
     return status;
+}
+
+/* Texts may hold "</script" and "<!--", which would end or change the element around them. */
+static int write_escaped(const char *text, size_t size, void *stream)
+{
+    for (size_t i = 0; i < size; ++i)
+        fputs(text[i] == '<' ? "\\u003c" : (char[]){text[i], '\0'}, stream);
+    return 0;
 }
 
 enum status report_write(const json_t *document, const char *path)
@@ -88,27 +88,18 @@ enum status report_write(const json_t *document, const char *path)
     static const char marker[] = "@BENCH@";
     const char *template = (const char *)report_html, *end = template + sizeof report_html;
     const char *place = memmem(template, sizeof report_html, marker, strlen(marker));
-    char *text = json_dumps(document, JSON_ENSURE_ASCII | JSON_REAL_PRECISION(9));
     struct output_file file;
-    if (!text || !place) {
+    enum status status = output_file_open(path, &file);
+    if (status != STATUS_DONE)
+        return status;
+    output_file_write(&file, template, (size_t)(place - template));
+    if (json_dump_callback(document, write_escaped, file.stream,
+                           JSON_ENSURE_ASCII | JSON_REAL_PRECISION(9)) != 0) {
+        output_file_abandon(&file);
         log_error("%s: no memory for the report", path);
-        free(text);
         return STATUS_UNABLE;
     }
-    enum status status = output_file_open(path, &file);
-    if (status == STATUS_DONE) {
-        output_file_write(&file, template, (size_t)(place - template));
-        /* Texts may hold "</script" and "<!--", which would end or change the element around them. */
-        for (size_t at = 0, length; text[at]; at += length + (text[at + length] == '<')) {
-            length = strcspn(text + at, "<");
-            output_file_write(&file, text + at, length);
-            if (text[at + length] == '<')
-                output_file_write(&file, "\\u003c", 6);
-        }
-        place += strlen(marker);
-        output_file_write(&file, place, (size_t)(end - place));
-        status = output_file_commit(&file);
-    }
-    free(text);
-    return status;
+    place += strlen(marker);
+    output_file_write(&file, place, (size_t)(end - place));
+    return output_file_commit(&file);
 }

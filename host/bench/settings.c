@@ -1,104 +1,97 @@
-#include "bench/settings.h"
-
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+#include "bench/measure.h"
 
 /* What is measured of the scene as it is: on a device first, on the CPU in any bench, and in a full one. */
 enum { DEVICE_MODES = 3, QUICK_MODES = 6, ALL_MODES = 7 };
-static const struct bench_setting modes[ALL_MODES] = {
+static const struct bench_point modes[ALL_MODES] = {
     {.label = "exact"},
-    {.fast = true, .label = "fast", .options = "--fast"},
-    {.precision = PRECISION_DOUBLE, .label = "double", .options = "--precision double"},
+    {.plan.fast = true, .label = "fast", .options = "--fast"},
+    {.plan.precision = PRECISION_DOUBLE, .label = "double", .options = "--precision double"},
     {FAMILY_CPU, BACKEND_CPU, .label = "CPU", .options = "--backend cpu"},
-    {FAMILY_CPU, BACKEND_CPU, .threads = 1, .label = "CPU, 1 thread", .options = "--backend cpu --threads 1"},
-    {FAMILY_CPU, BACKEND_CPU, PRECISION_DOUBLE, .label = "CPU, double",
+    {FAMILY_CPU, BACKEND_CPU, .plan.threads = 1, .label = "CPU, 1 thread",
+     .options = "--backend cpu --threads 1"},
+    {FAMILY_CPU, BACKEND_CPU, .plan.precision = PRECISION_DOUBLE, .label = "CPU, double",
      .options = "--backend cpu --precision double"},
-    {FAMILY_CPU, BACKEND_CPU, PRECISION_DOUBLE, .threads = 1, .label = "CPU, double, 1 thread",
-     .options = "--backend cpu --precision double --threads 1"},
+    {FAMILY_CPU, BACKEND_CPU, .plan.precision = PRECISION_DOUBLE, .plan.threads = 1,
+     .label = "CPU, double, 1 thread", .options = "--backend cpu --precision double --threads 1"},
 };
 
-struct list {
-    struct bench_setting *settings;
-    size_t count;
-    struct bench_setting knob; /* the setting in the making */
-    const char *label_end, *options_end;
-};
-
-static void append(struct list *list)
+/* Appends the point, all of whose options but these have been told. */
+static void append(struct bench *bench, const struct bench_point *knob)
 {
-    if (list->count < BENCH_MAX_SETTINGS)
-        list->settings[list->count++] = list->knob;
+    struct bench_point *point = &bench->points[bench->count++];
+    *point = *knob;
+    strcat(point->label, point->plan.fast ? ", fast" : "");
+    strcat(point->options, point->plan.fast                ? " --fast"
+                           : point->backend == BACKEND_CPU ? " --backend cpu"
+                                                           : "");
 }
 
-/* Appends the knob, whose picture has this max_error of this text. */
-static void append_max_error(struct list *list, const char *text)
+/* Appends the point, whose picture has a max_error, with that of this text. */
+static void append_max_error(struct bench *bench, struct bench_point *knob, const char *text)
 {
-    struct bench_setting *knob = &list->knob;
     knob->picture.max_error = strtod(text, NULL);
-    snprintf(knob->label, sizeof knob->label, "max error %s%s", text, list->label_end);
-    snprintf(knob->options, sizeof knob->options, "--max-error %s --max-bounces %u%s", text,
-             knob->picture.max_bounces, list->options_end);
-    append(list);
+    snprintf(knob->label, sizeof knob->label, "max error %s", text);
+    snprintf(knob->options, sizeof knob->options, "--max-error %s --max-bounces %u", text,
+             knob->picture.max_bounces);
+    append(bench, knob);
 }
 
-/* Appends the knob with *value, which is part of its picture, set to n. */
-static void append_count(struct list *list, unsigned *value, unsigned n, const char *noun, const char *option)
+/* Appends the point with *value, which is part of its picture, set to n. */
+static void append_count(struct bench *bench, struct bench_point *knob, unsigned *value, unsigned n,
+                         const char *noun, const char *option)
 {
-    struct bench_setting *knob = &list->knob;
     *value = n;
-    snprintf(knob->label, sizeof knob->label, "%u %s%s%s", n, noun, n == 1 ? "" : "s", list->label_end);
-    snprintf(knob->options, sizeof knob->options, "%s %u%s", option, n, list->options_end);
-    append(list);
+    snprintf(knob->label, sizeof knob->label, "%u %s%s", n, noun, n == 1 ? "" : "s");
+    snprintf(knob->options, sizeof knob->options, "%s %u", option, n);
+    append(bench, knob);
 }
 
-/* The knobs that trade rays for error. */
-static void append_knobs(struct list *list, const struct bench_choice *choice)
+/* The knobs that trade rays for error; those of pixel samples in exact mode alone. */
+static void append_knobs(struct bench *bench, bool fast)
 {
-    struct picture_settings *picture = &list->knob.picture;
-    if (choice->has_secondary_rays) {
-        list->knob.family = FAMILY_MAX_ERROR;
+    const bool quick = bench->options->quick;
+    struct bench_point knob = {.backend = bench->options->context ? BACKEND_VULKAN : BACKEND_CPU,
+                               .plan.fast = fast,
+                               .picture = bench->picture};
+    struct picture_settings *picture = &knob.picture;
+    if (bench->has_secondary_rays) {
+        knob.family = FAMILY_MAX_ERROR;
         picture->has_max_error = true;
-        picture->max_bounces = choice->deepest;
-        for (int digits = 1; digits <= (choice->quick ? 4 : 6); ++digits)
-            append_max_error(list, (char[]){'1', 'e', '-', (char)('0' + digits), '\0'});
-        append_max_error(list, "0");
-        *picture = choice->picture;
-        list->knob.family = FAMILY_BOUNCES;
-        for (unsigned n = 0; n <= 16 && n <= choice->deepest; n += n < 8 ? 1 : 2)
-            if (!choice->quick || (n & (n - 1)) == 0)
-                append_count(list, &picture->max_bounces, n, "bounce", "--max-bounces");
+        picture->max_bounces = bench->deepest;
+        for (int digits = 1; digits <= (quick ? 4 : 6); ++digits)
+            append_max_error(bench, &knob, (char[]){'1', 'e', '-', (char)('0' + digits), '\0'});
+        append_max_error(bench, &knob, "0");
+        *picture = bench->picture;
+        knob.family = FAMILY_BOUNCES;
+        for (unsigned n = 0; n <= 16 && n <= bench->deepest; n += n < 8 ? 1 : 2)
+            if (!quick || (n & (n - 1)) == 0)
+                append_count(bench, &knob, &picture->max_bounces, n, "bounce", "--max-bounces");
+        *picture = bench->picture;
     }
-    *picture = choice->picture;
-    list->knob.family = FAMILY_LIGHT_SAMPLES;
-    for (unsigned n = 1; n <= 1024 && choice->has_quad_lights; n *= choice->quick ? 4 : 2)
-        append_count(list, &picture->light_samples, n, "light sample", "--light-samples");
-    *picture = choice->picture;
+    knob.family = FAMILY_LIGHT_SAMPLES;
+    for (unsigned n = 1; n <= 1024 && bench->has_quad_lights; n *= quick ? 4 : 2)
+        append_count(bench, &knob, &picture->light_samples, n, "light sample", "--light-samples");
+    *picture = bench->picture;
+    knob.family = FAMILY_SAMPLES;
+    for (unsigned n = 1; n <= 1024 && !fast; n *= quick ? 4 : 2)
+        append_count(bench, &knob, &picture->samples, n, "sample", "--samples");
 }
 
-size_t bench_settings(const struct bench_choice *choice, struct bench_setting settings[BENCH_MAX_SETTINGS])
+void bench_settings(struct bench *bench)
 {
-    bool on_device = choice->backend == BACKEND_VULKAN;
-    struct list list = {.settings = settings};
-    for (int i = on_device ? 0 : DEVICE_MODES; i < (choice->quick ? QUICK_MODES : ALL_MODES); ++i) {
-        list.knob = modes[i];
-        list.knob.picture = choice->picture;
-        if (list.knob.backend == BACKEND_CPU || list.knob.precision == PRECISION_FLOAT || choice->has_float64)
-            append(&list);
-    }
-    list.knob = (struct bench_setting){.backend = choice->backend, .picture = choice->picture};
-    list.label_end = "";
-    list.options_end = on_device ? "" : " --backend cpu";
-    append_knobs(&list, choice);
-    if (on_device && !choice->quick) {
-        list.knob.fast = true;
-        list.label_end = ", fast";
-        list.options_end = " --fast";
-        append_knobs(&list, choice);
-        list.knob.fast = false;
-        list.label_end = list.options_end = "";
-    }
-    list.knob.family = FAMILY_SAMPLES;
-    for (unsigned n = 1; n <= 1024; n *= choice->quick ? 4 : 2)
-        append_count(&list, &list.knob.picture.samples, n, "sample", "--samples");
-    return list.count;
+    const struct vulkan_context *context = bench->options->context;
+    const bool quick = bench->options->quick;
+    for (int i = context ? 0 : DEVICE_MODES; i < (quick ? QUICK_MODES : ALL_MODES); ++i)
+        if (i >= DEVICE_MODES || modes[i].plan.precision == PRECISION_FLOAT || context->has_float64) {
+            struct bench_point *point = &bench->points[bench->count++];
+            *point = modes[i];
+            point->picture = bench->picture;
+        }
+    append_knobs(bench, false);
+    if (context && !quick)
+        append_knobs(bench, true);
 }

@@ -1,18 +1,8 @@
-#include "bench/table.h"
-
 #include <math.h>
 #include <string.h>
 
 #include "base/output_file.h"
 #include "bench/document.h"
-
-static double spread_ms(const json_t *point)
-{
-    const json_t *quartiles = json_object_get(point, "time_quartiles_ms");
-    return (json_number_value(json_array_get(quartiles, 1)) -
-            json_number_value(json_array_get(quartiles, 0))) /
-           2;
-}
 
 /* The points against the one truth or the other. */
 static void print_points(const json_t *scene, bool filtered, FILE *stream)
@@ -39,7 +29,7 @@ static void print_points(const json_t *scene, bool filtered, FILE *stream)
         if (bench_is_filtered(point) == filtered)
             fprintf(stream, "%c %-*s %9.2f %7.2f %8.1f  %8.2g %8.2g %8.2g %8.2g %8.2g %8.0f\n",
                     json_is_true(json_object_get(point, "pareto")) ? '*' : ' ', width,
-                    *options ? options : as_it_is, bench_number(point, "time_ms"), spread_ms(point),
+                    *options ? options : as_it_is, bench_number(point, "time_ms"), bench_spread_ms(point) / 2,
                     bench_number(point, "rays_per_second") * 1e-6, bench_number(error, "max"),
                     bench_number(error, "rmse"), bench_number(error, "absolute_999"),
                     bench_number(error, "relative_median"), bench_number(error, "relative_999"),
@@ -92,34 +82,27 @@ void bench_print_scene(const json_t *scene, FILE *stream)
     print_conclusions(scene, stream);
 }
 
-static void put(struct output_file *file, const char *text)
-{
-    output_file_write(file, text, strlen(text));
-}
-
 /* A field: text in quotes, numbers as they are, null empty. */
-static void put_field(struct output_file *file, const json_t *value)
+static void put_field(FILE *stream, const json_t *value)
 {
-    char number[64] = "";
     if (json_is_string(value)) {
-        put(file, "\"");
+        fputc('"', stream);
         for (const char *text = json_string_value(value); *text; ++text)
-            put(file, *text == '"' ? "\"\"" : (char[]){*text, '\0'});
-        put(file, "\"");
+            fputs(*text == '"' ? "\"\"" : (char[]){*text, '\0'}, stream);
+        fputc('"', stream);
     } else if (json_is_integer(value)) {
-        snprintf(number, sizeof number, "%lld", (long long)json_integer_value(value));
+        fprintf(stream, "%lld", (long long)json_integer_value(value));
     } else if (json_is_real(value)) {
-        snprintf(number, sizeof number, "%.9g", json_real_value(value));
+        fprintf(stream, "%.9g", json_real_value(value));
     } else if (json_is_boolean(value)) {
-        snprintf(number, sizeof number, "%d", json_is_true(value));
+        fprintf(stream, "%d", json_is_true(value));
     }
-    put(file, number);
 }
 
 /* The fields of a value, or with names_only their names: those of an object's or array's elements are its own
  * and theirs, as in error_rmse. Each field but the first of a line, which is the scene, has a comma before
  * it. */
-static void put_fields(struct output_file *file, const char *name, json_t *value, bool names_only)
+static void put_fields(FILE *stream, const char *name, json_t *value, bool names_only)
 {
     char longer[100];
     const char *key;
@@ -128,20 +111,18 @@ static void put_fields(struct output_file *file, const char *name, json_t *value
     json_object_foreach(value, key, element)
     {
         snprintf(longer, sizeof longer, "%s%s%s", name, *name ? "_" : "", key);
-        put_fields(file, longer, element, names_only);
+        put_fields(stream, longer, element, names_only);
     }
     json_array_foreach(value, i, element)
     {
         snprintf(longer, sizeof longer, "%s_%zu", name, i + 1);
-        put_fields(file, longer, element, names_only);
+        put_fields(stream, longer, element, names_only);
     }
     if (json_is_object(value) || json_is_array(value))
         return;
-    put(file, ",");
-    if (names_only)
-        put(file, name);
-    else
-        put_field(file, value);
+    fprintf(stream, ",%s", names_only ? name : "");
+    if (!names_only)
+        put_field(stream, value);
 }
 
 enum status bench_csv_write(const json_t *document, const char *path)
@@ -156,13 +137,13 @@ enum status bench_csv_write(const json_t *document, const char *path)
         json_array_foreach(json_object_get(scene, "points"), p, point)
     {
         if (s == 0 && p == 0) {
-            put(&file, "scene");
-            put_fields(&file, "", point, true);
-            put(&file, "\r\n");
+            fputs("scene", file.stream);
+            put_fields(file.stream, "", point, true);
+            fputs("\r\n", file.stream);
         }
-        put_field(&file, json_object_get(scene, "scene"));
-        put_fields(&file, "", point, false);
-        put(&file, "\r\n");
+        put_field(file.stream, json_object_get(scene, "scene"));
+        put_fields(file.stream, "", point, false);
+        fputs("\r\n", file.stream);
     }
     return output_file_commit(&file);
 }

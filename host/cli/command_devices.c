@@ -1,4 +1,3 @@
-#include "cli/commands.h"
 #include "cli/options.h"
 #include "vulkan/probe.h"
 

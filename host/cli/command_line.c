@@ -1,5 +1,3 @@
-#include "cli/command_line.h"
-
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
@@ -184,10 +182,4 @@ enum status command_line_read(int argc, char **argv, struct options *options)
     if (status == STATUS_DONE && options->command == COMMAND_PIXEL)
         status = read_place(options);
     return status == STATUS_DONE ? check_outputs(options) : status;
-}
-
-void command_line_destroy(struct options *options)
-{
-    free(options->outputs);
-    *options = (struct options){0};
 }

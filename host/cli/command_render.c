@@ -6,11 +6,6 @@
 #include "base/json.h"
 #include "tracer/job.h"
 
-static const char *device_name(const struct vulkan_context *context)
-{
-    return context ? context->properties.deviceName : "cpu";
-}
-
 static bool writes_exr(const struct options *options)
 {
     for (size_t i = 0; i < options->output_count; ++i)
@@ -38,7 +33,7 @@ static void report_truncation(const struct options *options, const struct job *j
 
 static enum status write_stats(const struct options *options, const struct job *job,
                                const struct rendering *rendering, const struct vulkan_context *context,
-                               double write_ms)
+                               const char *device, double write_ms)
 {
     const struct reference_rays *rays = &rendering->rays;
     double total = (double)(rays->primary + rays->secondary + rays->shadow);
@@ -46,14 +41,13 @@ static enum status write_stats(const struct options *options, const struct job *
                              : json_string("plain-C reference");
     json_t *stats = json_pack(
         "{s:s, s:s, s:o, s:i, s:i, s:s, s:s, s:i, s:i, s:i, s:f, s:f, s:f, s:f, s:{s:I, s:I, s:I}, s:f}",
-        "scene", options->scenes[0], "device", device_name(context), "driver", driver, "width",
-        (int)job->plan.window.width, "height", (int)job->plan.window.height, "precision",
-        precision_name(options->job.plan.precision), "mode", options->job.plan.fast ? "fast" : "exact",
-        "max_bounces", job->packed.max_bounces, "samples", job->packed.samples, "light_samples",
-        job->packed.light_samples, "setup_ms", rendering->setup_ms, "first_dispatch_ms",
-        rendering->first_dispatch_ms, "dispatch_ms", rendering->dispatch_ms, "write_ms", write_ms, "rays",
-        "primary", (json_int_t)rays->primary, "secondary", (json_int_t)rays->secondary, "shadow",
-        (json_int_t)rays->shadow, "rays_per_second",
+        "scene", options->scenes[0], "device", device, "driver", driver, "width", (int)job->plan.window.width,
+        "height", (int)job->plan.window.height, "precision", precision_name(options->job.plan.precision),
+        "mode", options->job.plan.fast ? "fast" : "exact", "max_bounces", job->packed.max_bounces, "samples",
+        job->packed.samples, "light_samples", job->packed.light_samples, "setup_ms", rendering->setup_ms,
+        "first_dispatch_ms", rendering->first_dispatch_ms, "dispatch_ms", rendering->dispatch_ms, "write_ms",
+        write_ms, "rays", "primary", (json_int_t)rays->primary, "secondary", (json_int_t)rays->secondary,
+        "shadow", (json_int_t)rays->shadow, "rays_per_second",
         rendering->dispatch_ms > 0 ? total / rendering->dispatch_ms * 1000 : 0);
     return json_write(stats, options->stats);
 }
@@ -61,18 +55,19 @@ static enum status write_stats(const struct options *options, const struct job *
 static enum status deliver(const struct options *options, const struct job *job,
                            const struct rendering *rendering, const struct vulkan_context *context)
 {
+    const char *device = context ? context->properties.deviceName : "cpu";
     if (options->job.has_max_error)
         report_truncation(options, job, &rendering->image);
     double start = clock_ms();
-    enum status status = job_write(job, &rendering->image, options->outputs, options->output_count,
-                                   options->transfer, device_name(context));
+    enum status status =
+        job_write(job, &rendering->image, options->outputs, options->output_count, options->transfer, device);
     double write_ms = clock_ms() - start;
     if (status == STATUS_DONE && options->stats)
-        status = write_stats(options, job, rendering, context, write_ms);
+        status = write_stats(options, job, rendering, context, device, write_ms);
     if (status == STATUS_DONE)
         log_notice("%s: %ux%u in %.1f ms on %s (set-up %.1f ms, writing %.1f ms)", options->scenes[0],
-                   rendering->image.width, rendering->image.height, rendering->dispatch_ms,
-                   device_name(context), rendering->setup_ms, write_ms);
+                   rendering->image.width, rendering->image.height, rendering->dispatch_ms, device,
+                   rendering->setup_ms, write_ms);
     return status;
 }
 

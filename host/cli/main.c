@@ -1,20 +1,8 @@
 #include <signal.h>
-#include <stdio.h>
+#include <stdlib.h>
 
 #include "base/interrupt.h"
-#include "cli/command_line.h"
-#include "cli/help.h"
-
-static enum status run(const struct options *options)
-{
-    if (options->help)
-        help_print(stdout);
-    else if (options->version)
-        help_print_version();
-    else
-        return commands[options->command].run(options);
-    return STATUS_DONE;
-}
+#include "cli/options.h"
 
 int main(int argc, char **argv)
 {
@@ -26,9 +14,13 @@ int main(int argc, char **argv)
         return STATUS_REFUSED;
     }
     enum status status = command_line_read(argc, argv, &options);
-    if (status == STATUS_DONE)
-        status = run(&options);
-    command_line_destroy(&options);
+    if (options.help)
+        help_print(stdout);
+    else if (options.version)
+        help_print_version();
+    else if (status == STATUS_DONE)
+        status = commands[options.command].run(&options);
+    free(options.outputs);
     if (status == STATUS_DONE && fflush(stdout) != 0) {
         log_error("cannot write to standard output");
         status = STATUS_UNABLE;

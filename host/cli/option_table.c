@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "cli/options.h"
 
 bool parse_list(const char *text, char separator, size_t count, unsigned long most, unsigned *values)
 {

@@ -1,8 +1,12 @@
 #ifndef VKWHITTED_CLI_OPTION_TABLE_H
 #define VKWHITTED_CLI_OPTION_TABLE_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include "cli/options.h"
+
+enum { COMMAND_NAMES = 64 }; /* characters that the names of all commands take */
+
+/* Writes the names of a set of commands, in which 1 << COMMAND_... are the bits, separated by ", ". */
+const char *command_names(unsigned set, char names[static COMMAND_NAMES]);
 
 /* One option of the command line. Parsing and --help are made from the table of these; the manual page and
  * the completions of shells are made from --help when the program is built, see documents.cmake. */

@@ -1,12 +1,21 @@
 #ifndef VKWHITTED_CLI_OPTIONS_H
 #define VKWHITTED_CLI_OPTIONS_H
 
-#include <stddef.h>
+#include <stdio.h>
 
 #include "check/compare.h"
-#include "cli/commands.h"
 #include "tracer/job.h"
 #include "vulkan/context.h"
+
+enum command_id {
+    COMMAND_RENDER,
+    COMMAND_CHECK,
+    COMMAND_WATCH,
+    COMMAND_BENCH,
+    COMMAND_PIXEL,
+    COMMAND_DEVICES,
+    COMMAND_COUNT
+};
 
 /* The command line, checked. Strings point into argv. */
 struct options {
@@ -36,5 +45,28 @@ struct options {
     bool verbose;
     bool help, version; /* is all that is asked for, and nothing else has been checked */
 };
+
+/* Reads the command line; argc is at least 2. STATUS_REFUSED (reported) if it is wrong, STATUS_UNABLE if an
+ * output cannot be written. The caller frees options->outputs, also on failure. */
+enum status command_line_read(int argc, char **argv, struct options *options);
+
+/* The caller finds out by fflush() whether the text could be written. documents.cmake reads it, too. */
+void help_print(FILE *stream);
+void help_print_version(void);
+
+/* What is reported on standard output and error, and what the exit status means, stands in the manual page.
+ */
+enum status command_render(const struct options *options);
+enum status command_check(const struct options *options);
+enum status command_watch(const struct options *options);
+enum status command_bench(const struct options *options);
+enum status command_pixel(const struct options *options);
+enum status command_devices(const struct options *options);
+
+struct command {
+    const char *name, *arguments, *summary;
+    enum status (*run)(const struct options *options);
+};
+extern const struct command commands[COMMAND_COUNT];
 
 #endif

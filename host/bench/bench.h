@@ -1,10 +1,37 @@
-#ifndef VKWHITTED_BENCH_COMPARE_H
-#define VKWHITTED_BENCH_COMPARE_H
+#ifndef VKWHITTED_BENCH_BENCH_H
+#define VKWHITTED_BENCH_BENCH_H
 
 #include <jansson.h>
 #include <stdio.h>
 
-#include "base/status.h"
+#include "tracer/job.h"
+
+/* The bench document without a scene: the command line and what times depend on. STATUS_UNABLE (reported)
+ * without memory or where the command line is not UTF-8. The caller frees *document. */
+enum status bench_document(int argc, char **argv, bool quick, const struct vulkan_context *context,
+                           json_t **document);
+
+struct bench_options {
+    struct job_options job;         /* of these the size and quiet */
+    struct vulkan_context *context; /* NULL: the CPU alone */
+    bool quick;
+    bool wants_pictures; /* for the report */
+};
+
+/* Measures one scene as the options say. *scene gets an element for the document's "scenes"; NULL with any
+ * status but STATUS_DONE. A setting that the device cannot do is left out with a warning. */
+enum status bench_scene(const struct bench_options *options, const char *path, json_t **scene);
+
+/* A scene of the bench document for people: a line a setting, then the fitted slopes, what device and
+ * reference agree in, and a recommendation for each of four errors. */
+void bench_print_scene(const json_t *scene, FILE *stream);
+
+/* All points of all scenes of the document, one a line under a line of names (RFC 4180). The file appears
+ * whole or not at all, as does the report. */
+enum status bench_csv_write(const json_t *document, const char *path);
+
+/* Writes the bench document as one HTML page that needs nothing else: report.html with the document in it. */
+enum status report_write(const json_t *document, const char *path);
 
 /* Reads an earlier bench's JSON file; STATUS_REFUSED (reported) if it is not one. The caller frees *document.
  */
