@@ -50,6 +50,14 @@ void vulkan_name(struct vulkan_context *context, VkObjectType type, uint64_t han
                                  });
 }
 
+void vulkan_end_frame(struct vulkan_context *context, VkCommandBuffer commands)
+{
+    context->insert_label(commands, &(VkDebugUtilsLabelEXT){
+                                        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
+                                        .pLabelName = "vr-marker,frame_end,type,application",
+                                    });
+}
+
 static VKAPI_ATTR VkBool32 VKAPI_CALL report_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                      VkDebugUtilsMessageTypeFlagsEXT types,
                                                      const VkDebugUtilsMessengerCallbackDataEXT *data,
@@ -114,6 +122,7 @@ static enum status create_instance(struct vulkan_context *context, const struct 
     if (result != VK_SUCCESS)
         return STATUS_UNABLE;
     context->set_object_name = FIND(context, vkSetDebugUtilsObjectNameEXT);
+    context->insert_label = FIND(context, vkCmdInsertDebugUtilsLabelEXT);
     PFN_vkCreateDebugUtilsMessengerEXT create_messenger = FIND(context, vkCreateDebugUtilsMessengerEXT);
     if (validate)
         VULKAN_CALL(create_messenger, context->instance, &messenger_info, NULL, &context->messenger);

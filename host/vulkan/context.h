@@ -41,6 +41,7 @@ struct vulkan_context {
     struct arithmetic arithmetic; /* not known before probe_arithmetic() */
     atomic_uint validation_messages;
     PFN_vkSetDebugUtilsObjectNameEXT set_object_name;
+    PFN_vkCmdInsertDebugUtilsLabelEXT insert_label;
 };
 
 struct vulkan_options {
@@ -63,6 +64,10 @@ enum status vulkan_print_devices(const struct vulkan_options *options,
 
 /* Names an object for debuggers such as RenderDoc; a null handle is left alone. */
 void vulkan_name(struct vulkan_context *context, VkObjectType type, uint64_t handle, const char *name);
+
+/* Ends a frame for debuggers that capture one: the program presents nothing, and RenderDoc and GFXReconstruct
+ * take this label for it. */
+void vulkan_end_frame(struct vulkan_context *context, VkCommandBuffer commands);
 
 /* A VkResult's name. */
 const char *vulkan_result_name(VkResult result);

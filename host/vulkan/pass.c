@@ -230,6 +230,7 @@ enum status vulkan_pass_run(struct vulkan_pass *pass, const struct pass_dispatch
                     .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
                 });
     record(pass, dispatch);
+    vulkan_end_frame(pass->context, pass->commands);
     VULKAN_CALL(vkEndCommandBuffer, pass->commands);
     double start = clock_ms();
     VULKAN_CALL(vkQueueSubmit, context->queue, 1,
