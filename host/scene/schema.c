@@ -24,10 +24,7 @@ void schema_refuse(struct mapping *mapping, struct fy_node *node, const char *fo
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    struct scene_place place = {1, 1};
-    if (mapping->report->count < REPORT_MAX_ERRORS) /* others are only counted */
-        place = yaml_place(mapping->report, node);
-    report_error(mapping->report, place, "%s%s", mapping->label, message);
+    report_error(mapping->report, yaml_place(mapping->report, node), "%s%s", mapping->label, message);
     mapping->good = false;
 }
 
@@ -70,9 +67,9 @@ struct yaml_value schema_find(const struct mapping *mapping, const char *key)
 {
     struct fy_node_pair *pair;
     for (void *at = NULL; (pair = fy_node_mapping_iterate(mapping->value.node, &at));) {
-        const struct yaml_value found = yaml_read(mapping->report, fy_node_pair_key(pair));
+        const struct yaml_value found = yaml_read(mapping->report, fy_node_pair_key(pair), NULL);
         if (is_text(&found, key))
-            return yaml_read(mapping->report, fy_node_pair_value(pair));
+            return yaml_read(mapping->report, fy_node_pair_value(pair), found.written);
     }
     return (struct yaml_value){.written = NULL};
 }
@@ -168,7 +165,7 @@ void read_vector(struct mapping *mapping, const struct field *field, const struc
     }
     struct fy_node *item;
     for (void *at = NULL; (item = fy_node_sequence_iterate(value->node, &at));) {
-        struct yaml_value number = yaml_read(mapping->report, item);
+        const struct yaml_value number = yaml_read(mapping->report, item, value->written);
         read_number(mapping, field, &number, component++);
     }
 }
@@ -191,47 +188,42 @@ void read_count(struct mapping *mapping, const struct field *field, const struct
 static void read_pair(struct mapping *mapping, struct fy_node_pair *pair, void *item,
                       struct fy_node *first_keys[])
 {
-    const struct field *fields = mapping->schema->fields;
-    const struct yaml_value key = yaml_read(mapping->report, fy_node_pair_key(pair));
-    size_t i = 0;
-    while (fields[i].name && !is_text(&key, fields[i].name))
-        i++;
-    if (!fields[i].name) {
+    const struct yaml_value key = yaml_read(mapping->report, fy_node_pair_key(pair), mapping->value.written);
+    const struct field *field = mapping->schema->fields;
+    while (field->name && !is_text(&key, field->name))
+        field++;
+    struct fy_node **first = &first_keys[field - mapping->schema->fields];
+    if (!field->name) {
         refuse_key(mapping, &key, key.type == FYNT_SCALAR ? "unknown key" : "a key must be a word, is");
-        return;
-    }
-    if (first_keys[i]) {
-        schema_refuse(mapping, key.written, "key \"%s\" is given twice, first in line %d", fields[i].name,
-                      yaml_place(mapping->report, first_keys[i]).line);
-        return;
-    }
-    first_keys[i] = key.written;
-    if (!takes(&fields[i], mapping->type)) {
-        refuse_key(mapping, &key, "takes no key");
-    } else if (fields[i].read) {
-        const struct yaml_value value = yaml_read(mapping->report, fy_node_pair_value(pair));
-        fields[i].read(mapping, &fields[i], &value, (char *)item + fields[i].offset);
+    } else if (*first) {
+        schema_refuse(mapping, key.written, "key \"%s\" is given twice, first in line %d", field->name,
+                      yaml_place(mapping->report, *first).line);
+    } else {
+        *first = key.written;
+        const struct yaml_value value = yaml_read(mapping->report, fy_node_pair_value(pair), key.written);
+        if (!takes(field, mapping->type))
+            refuse_key(mapping, &key, "takes no key");
+        else if (field->read)
+            field->read(mapping, field, &value, (char *)item + field->offset);
     }
 }
 
-void schema_read(struct diagnostics *report, const struct schema *schema, struct fy_node *node, void *item,
-                 struct mapping *mapping)
+void schema_read(struct diagnostics *report, const struct schema *schema, const struct yaml_value *value,
+                 void *item, struct mapping *mapping)
 {
-    *mapping = (struct mapping){report, schema, yaml_read(report, node), .type = -1, .good = true};
-    if (mapping->value.type != FYNT_MAPPING) {
-        schema_expect(mapping, &mapping->value, schema->label[0] ? schema->label : "a scene file",
+    *mapping = (struct mapping){report, schema, *value, .type = -1, .good = true};
+    if (value->type != FYNT_MAPPING) {
+        schema_expect(mapping, value, schema->label[0] ? schema->label : "a scene file",
                       "a mapping (\"key: value\")");
         return;
     }
     find_type_and_label(mapping);
     struct fy_node *first_keys[SCHEMA_MAX_FIELDS] = {NULL};
     struct fy_node_pair *pair;
-    for (void *at = NULL; (pair = fy_node_mapping_iterate(mapping->value.node, &at));)
+    for (void *at = NULL; (pair = fy_node_mapping_iterate(value->node, &at));)
         read_pair(mapping, pair, item, first_keys);
-    for (size_t i = 0; schema->fields[i].name; i++) {
-        const struct field *field = &schema->fields[i];
-        if (field->required && !first_keys[i] && (field->types == 0 || mapping->type >= 0) &&
-            takes(field, mapping->type))
-            schema_refuse(mapping, node, "missing key \"%s\"", field->name);
-    }
+    for (const struct field *field = schema->fields; field->name; field++)
+        if (field->required && !first_keys[field - schema->fields] && takes(field, mapping->type) &&
+            (field->types == 0 || mapping->type >= 0))
+            schema_refuse(mapping, value->written, "missing key \"%s\"", field->name);
 }

@@ -51,10 +51,10 @@ struct mapping {
     bool good;                         /* nothing of it was refused */
 };
 
-/* Reads node by the schema into the struct at item, whose members keep their values where keys are missing
- * or wrong. Reports unknown, doubled, misplaced and missing keys and wrong values. */
-void schema_read(struct diagnostics *report, const struct schema *schema, struct fy_node *node, void *item,
-                 struct mapping *mapping);
+/* Reads the value by the schema into the struct at item, whose members keep their values where keys are
+ * missing or wrong. Reports unknown, doubled, misplaced and missing keys and wrong values. */
+void schema_read(struct diagnostics *report, const struct schema *schema, const struct yaml_value *value,
+                 void *item, struct mapping *mapping);
 
 /* The value that the key is given first; written is NULL where it is not given. */
 struct yaml_value schema_find(const struct mapping *mapping, const char *key);
