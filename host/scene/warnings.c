@@ -3,51 +3,22 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "scene/vector.h"
+#include "scene/body.h"
 
-/* What float arithmetic on coordinates of size 1 cannot resolve, a few units in the last place, is taken as
- * touching, not as crossing. */
-static const double resolution = 0x1p-21;
-
-/* Signed: positive outside a sphere and on the side of a plane's normal. */
-static double distance_from(const struct scene_object *surface, struct dvec3 point)
+/* Whether the surfaces of two bodies cross, or coincide with both bodies on the same side. */
+static bool overlap(const struct scene_object *first, const struct scene_object *second)
 {
-    if (surface->type == OBJECT_SPHERE)
-        return dvec3_distance(point, dvec3_of(surface->sphere.center)) - surface->sphere.radius;
-    return dvec3_dot(dvec3_unit(dvec3_of(surface->plane.normal)),
-                     dvec3_subtract(point, dvec3_of(surface->plane.point)));
-}
-
-static bool planes_overlap(const struct scene_object *a, const struct scene_object *b)
-{
-    struct dvec3 normal = dvec3_unit(dvec3_of(a->plane.normal)),
-                 other = dvec3_unit(dvec3_of(b->plane.normal));
-    struct dvec3 point = dvec3_of(b->plane.point);
-    return dvec3_length(dvec3_cross(normal, other)) > resolution ||
-           (dvec3_dot(normal, other) > 0 &&
-            fabs(distance_from(a, point)) <= resolution * dvec3_length(point));
-}
-
-/* Whether the surface of a ball crosses the other surface, that of a larger ball or of a plane. */
-static bool ball_overlaps(const struct scene_object *ball, const struct scene_object *other)
-{
-    struct dvec3 center = dvec3_of(ball->sphere.center);
-    double radius = ball->sphere.radius, touching = resolution * (dvec3_length(center) + radius);
-    double distance = distance_from(other, center);
-    bool coincide = other->type == OBJECT_SPHERE && other->sphere.radius - radius <= touching &&
-                    fabs(distance + radius) <= touching;
-    return coincide || fabs(distance) < radius - touching;
-}
-
-/* Whether the surfaces of two bodies cross, or coincide with both bodies on the same side. What lies behind a
- * plane is its body. */
-static bool overlap(const struct scene_object *a, const struct scene_object *b)
-{
-    if (a->type == OBJECT_PLANE && b->type == OBJECT_PLANE)
-        return planes_overlap(a, b);
-    bool a_is_ball =
-        b->type == OBJECT_PLANE || (a->type == OBJECT_SPHERE && a->sphere.radius <= b->sphere.radius);
-    return a_is_ball ? ball_overlaps(a, b) : ball_overlaps(b, a);
+    struct body a = body_of(first), b = body_of(second);
+    if (!a.is_ball && !b.is_ball)
+        return dvec3_length(dvec3_cross(a.vector, b.vector)) > RESOLUTION ||
+               (dvec3_dot(a.vector, b.vector) > 0 &&
+                fabs(a.number - b.number) <= RESOLUTION * fabs(b.number));
+    bool a_is_smaller = a.is_ball && (!b.is_ball || a.number <= b.number);
+    struct body ball = a_is_smaller ? a : b, other = a_is_smaller ? b : a;
+    double touching = RESOLUTION * (dvec3_length(ball.vector) + ball.number);
+    bool coincide = other.is_ball && other.number - ball.number <= touching &&
+                    dvec3_distance(other.vector, ball.vector) <= touching;
+    return coincide || body_reaches_into(other, ball);
 }
 
 static double lower_end(const struct scene_object *body, int axis)
@@ -141,7 +112,7 @@ static bool shines_on_any(const struct scene *scene, const struct scene_light *l
         if (height + (sphere ? object->sphere.radius : 0) > 0)
             return true;
         if (!sphere &&
-            dvec3_length(dvec3_cross(axis, dvec3_unit(dvec3_of(object->plane.normal)))) > resolution)
+            dvec3_length(dvec3_cross(axis, dvec3_unit(dvec3_of(object->plane.normal)))) > RESOLUTION)
             return true;
     }
     return false;
