@@ -18,19 +18,19 @@
 /* Sine of the angle under which two directions count as parallel: some 10 units in float's last place. */
 #define LEAST_SINE 1e-6
 
-static const struct bound coordinate[] = {{-MOST, MOST, false, "within -1e15..1e15"}, {.rule = NULL}};
-static const struct bound positive_length[] = {
-    {0, INFINITY, true, "> 0"}, {LEAST_LENGTH, MOST, false, "within 1e-15..1e15"}, {.rule = NULL}};
-static const struct bound field_of_view[] = {{0, 180, true, "> 0 and < 180 degrees"}, {.rule = NULL}};
-static const struct bound refraction[] = {
-    {0, INFINITY, true, "> 0"}, {1e-3, 1e3, false, "within 0.001..1000"}, {.rule = NULL}};
-static const struct bound albedo[] = {{0, 1, false, "within 0..1"}, {.rule = NULL}};
-static const struct bound amount[] = {{0, MOST, false, "within 0..1e15"}, {.rule = NULL}};
-static const struct bound picture_side[] = {{1, SCENE_MAX_SIZE, false, ""}, {.rule = NULL}};
-static const struct bound bounce_count[] = {{0, SCENE_MAX_BOUNCES, false, ""}, {.rule = NULL}};
-static const struct bound sample_count[] = {{1, SCENE_MAX_SAMPLES, false, ""}, {.rule = NULL}};
+static const struct bound coordinate[BOUNDS] = {{-MOST, MOST, false, "within -1e15..1e15"}};
+static const struct bound positive_length[BOUNDS] = {{0, INFINITY, true, "> 0"},
+                                                     {LEAST_LENGTH, MOST, false, "within 1e-15..1e15"}};
+static const struct bound field_of_view[BOUNDS] = {{0, 180, true, "> 0 and < 180 degrees"}};
+static const struct bound refraction[BOUNDS] = {{0, INFINITY, true, "> 0"},
+                                                {1e-3, 1e3, false, "within 0.001..1000"}};
+static const struct bound albedo[BOUNDS] = {{0, 1, false, "within 0..1"}};
+static const struct bound amount[BOUNDS] = {{0, MOST, false, "within 0..1e15"}};
+static const struct bound picture_side[BOUNDS] = {{1, SCENE_MAX_SIZE, false, ""}};
+static const struct bound bounce_count[BOUNDS] = {{0, SCENE_MAX_BOUNCES, false, ""}};
+static const struct bound sample_count[BOUNDS] = {{1, SCENE_MAX_SAMPLES, false, ""}};
 
-static const struct field scene_fields[] = {
+static const struct field scene_fields[MAX_FIELDS] = {
     {"camera", NULL, true, 0, 0, NULL},
     {"image", NULL, true, 0, 0, NULL},
     {"materials", NULL, false, 0, 0, NULL},
@@ -39,41 +39,36 @@ static const struct field scene_fields[] = {
     {"background", read_vector, false, 0, offsetof(struct scene, background), amount},
     {"max_bounces", read_count, false, 0, offsetof(struct scene, max_bounces), bounce_count},
     {"light_samples", read_count, false, 0, offsetof(struct scene, light_samples), sample_count},
-    {.name = NULL},
 };
 static const struct schema scene_schema = {.label = "", .fields = scene_fields};
 
-static const struct field camera_fields[] = {
+static const struct field camera_fields[MAX_FIELDS] = {
     {"position", read_vector, true, 0, offsetof(struct scene_camera, position), coordinate},
     {"look_at", read_vector, true, 0, offsetof(struct scene_camera, look_at), coordinate},
     {"up", read_vector, false, 0, offsetof(struct scene_camera, up), NULL},
     {"fov_y", read_number, false, 0, offsetof(struct scene_camera, fov_y_degrees), field_of_view},
-    {.name = NULL},
 };
 static const struct schema camera_schema = {.label = "camera", .fields = camera_fields};
 
-static const struct field image_fields[] = {
+static const struct field image_fields[MAX_FIELDS] = {
     {"width", read_count, true, 0, offsetof(struct scene, width), picture_side},
     {"height", read_count, true, 0, offsetof(struct scene, height), picture_side},
-    {.name = NULL},
 };
 static const struct schema image_schema = {.label = "image", .fields = image_fields};
 
-static const char *const material_types[] = {"matte", "mirror", "transparent", NULL};
 enum { MATTE = 1 << MATERIAL_MATTE, TRANSPARENT = 1 << MATERIAL_TRANSPARENT };
-static const struct field material_fields[] = {
+static const struct field material_fields[MAX_FIELDS] = {
     {"name", read_name, true, 0, offsetof(struct scene_material, name), NULL},
     {"type", read_type, true, 0, 0, NULL},
     {"color", read_vector, true, MATTE, offsetof(struct scene_material, color), albedo},
     {"roughness", read_number, false, MATTE, offsetof(struct scene_material, roughness), amount},
     {"ior", read_number, false, TRANSPARENT, offsetof(struct scene_material, ior), refraction},
-    {.name = NULL},
 };
-static const struct schema material_schema = {"material", false, material_types, material_fields};
+static const struct schema material_schema = {
+    .label = "material", .types = {"matte", "mirror", "transparent"}, .fields = material_fields};
 
-static const char *const object_types[] = {"sphere", "plane", NULL};
 enum { SPHERE = 1 << OBJECT_SPHERE, PLANE = 1 << OBJECT_PLANE };
-static const struct field object_fields[] = {
+static const struct field object_fields[MAX_FIELDS] = {
     {"name", read_name, true, 0, offsetof(struct scene_object, name), NULL},
     {"type", read_type, true, 0, 0, NULL},
     {"material", NULL, true, 0, 0, NULL},
@@ -81,13 +76,12 @@ static const struct field object_fields[] = {
     {"radius", read_number, true, SPHERE, offsetof(struct scene_object, sphere.radius), positive_length},
     {"point", read_vector, true, PLANE, offsetof(struct scene_object, plane.point), coordinate},
     {"normal", read_vector, true, PLANE, offsetof(struct scene_object, plane.normal), NULL},
-    {.name = NULL},
 };
-static const struct schema object_schema = {"object", true, object_types, object_fields};
+static const struct schema object_schema = {
+    .label = "object", .type_alone = true, .types = {"sphere", "plane"}, .fields = object_fields};
 
-static const char *const light_types[] = {"point", "quad", NULL};
 enum { POINT = 1 << LIGHT_POINT, QUAD = 1 << LIGHT_QUAD };
-static const struct field light_fields[] = {
+static const struct field light_fields[MAX_FIELDS] = {
     {"type", read_type, true, 0, 0, NULL},
     {"color", read_vector, false, 0, offsetof(struct scene_light, color), amount},
     {"power", read_number, true, 0, offsetof(struct scene_light, power), amount},
@@ -95,9 +89,9 @@ static const struct field light_fields[] = {
     {"corner", read_vector, true, QUAD, offsetof(struct scene_light, quad.corner), coordinate},
     {"u", read_vector, true, QUAD, offsetof(struct scene_light, quad.u), coordinate},
     {"v", read_vector, true, QUAD, offsetof(struct scene_light, quad.v), coordinate},
-    {.name = NULL},
 };
-static const struct schema light_schema = {"light", false, light_types, light_fields};
+static const struct schema light_schema = {
+    .label = "light", .types = {"point", "quad"}, .fields = light_fields};
 
 /* A material or object by its name; names point into the scene. */
 struct named {

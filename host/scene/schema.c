@@ -78,7 +78,7 @@ static void find_type_and_label(struct mapping *mapping)
 {
     const struct schema *schema = mapping->schema;
     const struct yaml_value given = schema_find(mapping, "type"), name = schema_find(mapping, "name");
-    for (int i = 0; schema->types && schema->types[i]; i++)
+    for (int i = 0; schema->types[i]; i++)
         if (is_text(&given, schema->types[i]))
             mapping->type = i;
     const char *type = mapping->type < 0 ? "" : schema->types[mapping->type];
@@ -93,7 +93,7 @@ static void find_type_and_label(struct mapping *mapping)
 
 static void refuse_key(struct mapping *mapping, const struct yaml_value *key, const char *problem)
 {
-    const char *names[SCHEMA_MAX_FIELDS];
+    const char *names[MAX_FIELDS];
     size_t count = 0;
     for (const struct field *field = mapping->schema->fields; field->name; field++)
         if (takes(field, mapping->type))
@@ -218,7 +218,7 @@ void schema_read(struct diagnostics *report, const struct schema *schema, const 
         return;
     }
     find_type_and_label(mapping);
-    struct fy_node *first_keys[SCHEMA_MAX_FIELDS] = {NULL};
+    struct fy_node *first_keys[MAX_FIELDS] = {NULL};
     struct fy_node_pair *pair;
     for (void *at = NULL; (pair = fy_node_mapping_iterate(value->node, &at));)
         read_pair(mapping, pair, item, first_keys);

@@ -5,9 +5,12 @@
 
 /* Which keys a mapping of a scene file takes, and reading such a mapping into a struct. */
 
-enum { SCHEMA_MAX_FIELDS = 16 };
+enum {
+    BOUNDS = 3,      /* places for bounds on a number; the list ends at one without a rule */
+    MAX_FIELDS = 16, /* the last has no name */
+};
 
-/* A bound on a number, with the words for "must be ...". Lists of bounds end with one without a rule. */
+/* A bound on a number, with the words for "must be ...". */
 struct bound {
     double least, most;
     bool open; /* least and most themselves are outside */
@@ -35,10 +38,10 @@ field_reader read_vector; /* to double[3] */
 field_reader read_count;  /* to unsigned */
 
 struct schema {
-    const char *label;          /* "material", for messages; "" for the whole file */
-    bool type_alone;            /* an object of type sphere is called sphere, not sphere object */
-    const char *const *types;   /* ends with NULL; NULL where there is no key "type" */
-    const struct field *fields; /* ends with a nameless one */
+    const char *label;    /* "material", for messages; "" for the whole file */
+    bool type_alone;      /* an object of type sphere is called sphere, not sphere object */
+    const char *types[4]; /* what the key "type" can be; ends with NULL, as the fields do */
+    const struct field *fields;
 };
 
 /* A mapping that is being read. */
