@@ -21,98 +21,81 @@ static bool overlap(const struct scene_object *first, const struct scene_object 
     return coincide || body_reaches_into(other, ball);
 }
 
-static double lower_end(const struct scene_object *body, int axis)
+static double lower_end(const struct scene_object *body)
 {
-    return body->type == OBJECT_SPHERE ? body->sphere.center[axis] - body->sphere.radius : -INFINITY;
-}
-
-static double upper_end(const struct scene_object *body, int axis)
-{
-    return body->type == OBJECT_SPHERE ? body->sphere.center[axis] + body->sphere.radius : INFINITY;
-}
-
-static bool apart(const struct scene_object *a, const struct scene_object *b, int axis)
-{
-    return lower_end(a, axis) > upper_end(b, axis) || lower_end(b, axis) > upper_end(a, axis);
+    return body->type == OBJECT_SPHERE ? body->sphere.center[0] - body->sphere.radius : -INFINITY;
 }
 
 static int compare_lower_ends(const void *a, const void *b)
 {
-    double first = lower_end(*(const struct scene_object *const *)a, 0);
-    double second = lower_end(*(const struct scene_object *const *)b, 0);
+    double first = lower_end(*(const struct scene_object *const *)a);
+    double second = lower_end(*(const struct scene_object *const *)b);
     return (first > second) - (first < second);
 }
 
-/* The pairs of bodies that overlap. In the first one, the second body stands first in the file. */
-struct overlaps {
-    size_t count;
-    const struct scene_object *a, *b;
-};
-
-static void count_overlap(struct overlaps *overlaps, const struct scene_object *a,
-                          const struct scene_object *b)
+static bool apart(const struct scene_object *a, const struct scene_object *b, int axis)
 {
-    const struct scene_object *earlier = a < b ? a : b, *later = a < b ? b : a;
-    if (overlaps->count++ == 0 || later < overlaps->b || (later == overlaps->b && earlier < overlaps->a)) {
-        overlaps->a = earlier;
-        overlaps->b = later;
-    }
+    return a->type == OBJECT_SPHERE && b->type == OBJECT_SPHERE &&
+           fabs(a->sphere.center[axis] - b->sphere.center[axis]) > a->sphere.radius + b->sphere.radius;
 }
 
-/* Sweeps along x: only bodies are compared that have some x in common. */
-static bool find_overlaps(const struct scene *scene, struct overlaps *overlaps)
+/* Sweeps along x: only bodies are compared that have some x in common. Of the first pair in the file, *later
+ * is the one that stands last. */
+static size_t count_overlaps(const struct scene *scene, const struct scene_object **bodies,
+                             const struct scene_object **earlier, const struct scene_object **later)
 {
-    const struct scene_object **bodies = calloc(scene->object_count + 1, sizeof *bodies);
-    size_t count = 0;
-    if (!bodies)
-        return false;
+    size_t count = 0, overlaps = 0;
     for (size_t i = 0; i < scene->object_count; ++i)
         if (scene->materials[scene->objects[i].material].type == MATERIAL_TRANSPARENT)
             bodies[count++] = &scene->objects[i];
     qsort(bodies, count, sizeof *bodies, compare_lower_ends);
     for (size_t i = 0; i < count; ++i)
-        for (size_t k = i + 1; k < count && !apart(bodies[i], bodies[k], 0); ++k)
-            if (!apart(bodies[i], bodies[k], 1) && !apart(bodies[i], bodies[k], 2) &&
-                overlap(bodies[i], bodies[k]))
-                count_overlap(overlaps, bodies[i], bodies[k]);
-    free(bodies);
-    return true;
+        for (size_t k = i + 1; k < count && !apart(bodies[i], bodies[k], 0); ++k) {
+            if (apart(bodies[i], bodies[k], 1) || apart(bodies[i], bodies[k], 2) ||
+                !overlap(bodies[i], bodies[k]))
+                continue;
+            bool in_order = bodies[i] < bodies[k];
+            const struct scene_object *a = bodies[in_order ? i : k], *b = bodies[in_order ? k : i];
+            if (overlaps++ == 0 || b < *later || (b == *later && a < *earlier)) {
+                *earlier = a;
+                *later = b;
+            }
+        }
+    return overlaps;
 }
 
 static void warn_of_overlaps(const struct scene *scene)
 {
-    struct overlaps found = {0};
+    const struct scene_object **bodies = calloc(scene->object_count + 1, sizeof *bodies);
+    const struct scene_object *a = NULL, *b = NULL;
     char others[64] = "";
-    if (!find_overlaps(scene, &found))
+    if (!bodies)
         log_warning("%s: no memory to look for transparent bodies that overlap", scene->path);
-    if (found.count == 0)
-        return;
-    if (found.count > 1)
-        snprintf(others, sizeof others, " (and %zu other pair%s)", found.count - 1,
-                 found.count > 2 ? "s" : "");
-    log_warning(
-        "%s:%d:%d: transparent bodies \"%s\" and \"%s\" overlap%s, which the model does not cover; a "
-        "body wholly inside another is no mistake, if its ior is relative to that one's (air in glass: "
-        "1/1.5)",
-        scene->path, found.b->place.line, found.b->place.column, found.a->name, found.b->name, others);
+    size_t count = bodies ? count_overlaps(scene, bodies, &a, &b) : 0;
+    if (count > 1)
+        snprintf(others, sizeof others, " (and %zu other pair%s)", count - 1, count > 2 ? "s" : "");
+    if (count > 0)
+        log_warning(
+            "%s:%d:%d: transparent bodies \"%s\" and \"%s\" overlap%s, which the model does not cover; a "
+            "body wholly inside another is no mistake, if its ior is relative to that one's (air in glass: "
+            "1/1.5)",
+            scene->path, b->place.line, b->place.column, a->name, b->name, others);
+    free(bodies);
 }
 
-/* Whether the light shines on some point of a matte object, with u and v as they are or swapped. */
-static bool shines_on_any(const struct scene *scene, const struct scene_light *light, bool swapped)
+/* Whether the light shines on some point of a matte object; turned: with u and v swapped. */
+static bool shines_on_any(const struct scene *scene, const struct scene_light *light, bool turned)
 {
     struct dvec3 back = dvec3_unit(dvec3_cross(dvec3_of(light->quad.u), dvec3_of(light->quad.v)));
-    struct dvec3 axis = dvec3_scale(swapped ? 1 : -1, back);
+    struct dvec3 axis = dvec3_scale(turned ? 1 : -1, back);
     for (size_t i = 0; i < scene->object_count; ++i) {
-        const struct scene_object *object = &scene->objects[i];
-        bool sphere = object->type == OBJECT_SPHERE;
-        struct dvec3 point = dvec3_of(sphere ? object->sphere.center : object->plane.point);
-        double height = dvec3_dot(axis, dvec3_subtract(point, dvec3_of(light->quad.corner)));
-        if (scene->materials[object->material].type != MATERIAL_MATTE)
-            continue;
-        if (height + (sphere ? object->sphere.radius : 0) > 0)
-            return true;
-        if (!sphere &&
-            dvec3_length(dvec3_cross(axis, dvec3_unit(dvec3_of(object->plane.normal)))) > RESOLUTION)
+        const struct body body = body_of(&scene->objects[i]);
+        struct dvec3 point = body.is_ball ? body.vector : dvec3_scale(body.number, body.vector);
+        double reach = body.is_ball ? body.number : 0;
+        if (!body.is_ball && dvec3_length(dvec3_cross(axis, body.vector)) > RESOLUTION)
+            reach = INFINITY;
+        if (scene->materials[scene->objects[i].material].type == MATERIAL_MATTE &&
+            dvec3_dot(axis, dvec3_subtract(point, dvec3_of(light->quad.corner))) + reach > 0)
             return true;
     }
     return false;
