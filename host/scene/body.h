@@ -38,12 +38,16 @@ static inline const PackedSurface *body_surface(const struct packed_scene *scene
                                    : &scene->planes[i - scene->sphere_count].surface;
 }
 
+static inline layout_vec4 body_shape(const struct packed_scene *scene, int i)
+{
+    return i < scene->sphere_count ? scene->spheres[i].center_radius
+                                   : scene->planes[i - scene->sphere_count].normal_offset;
+}
+
 static inline struct body body_packed(const struct packed_scene *scene, int i)
 {
-    bool is_ball = i < scene->sphere_count;
-    layout_vec4 v =
-        is_ball ? scene->spheres[i].center_radius : scene->planes[i - scene->sphere_count].normal_offset;
-    return (struct body){is_ball, dvec3_of_vec4(v), (double)v.w};
+    layout_vec4 shape = body_shape(scene, i);
+    return (struct body){i < scene->sphere_count, dvec3_of_vec4(shape), (double)shape.w};
 }
 
 /* Of a point from the body's surface; negative inside. */

@@ -3,7 +3,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "scene/body.h"
 #include "scene/truncation.h"
@@ -29,25 +28,6 @@ static float to_float(double x)
 static layout_vec4 to_vec4(struct dvec3 v, double w)
 {
     return (layout_vec4){to_float(v.x), to_float(v.y), to_float(v.z), to_float(w)};
-}
-
-static double scene_extent(const struct scene *scene)
-{
-    double extent = dvec3_largest(dvec3_of(scene->camera.position));
-    for (size_t i = 0; i < scene->object_count; ++i) {
-        const struct body body = body_of(&scene->objects[i]);
-        extent = fmax(extent, body.is_ball ? dvec3_largest(body.vector) + body.number : fabs(body.number));
-    }
-    for (size_t i = 0; i < scene->light_count; ++i) {
-        const struct scene_light *light = &scene->lights[i];
-        if (light->type == LIGHT_POINT)
-            extent = fmax(extent, dvec3_largest(dvec3_of(light->point.position)));
-        for (int k = 0; k < 4 && light->type == LIGHT_QUAD; ++k)
-            extent =
-                fmax(extent, dvec3_largest(dvec3_corner(dvec3_of(light->quad.corner), dvec3_of(light->quad.u),
-                                                        dvec3_of(light->quad.v), k)));
-    }
-    return extent;
 }
 
 static void pack_view(struct packing *packing)
@@ -99,42 +79,34 @@ static bool is_transparent(const PackedSurface *surface)
     return surface->tags.SURFACE_KIND == KIND_TRANSPARENT;
 }
 
-static bool same_vec4(layout_vec4 a, layout_vec4 b)
+/* Whether the packed body i is opaque and coincides with this one, which is then never met: ties go to the
+ * first. */
+static bool hides(const struct packed_scene *packed, int i, bool is_ball, layout_vec4 shape)
 {
-    return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
+    layout_vec4 first = body_shape(packed, i);
+    return is_ball == (i < packed->sphere_count) && !is_transparent(body_surface(packed, i)) &&
+           first.x == shape.x && first.y == shape.y && first.z == shape.z && first.w == shape.w;
 }
 
-/* An object that coincides with an opaque one before it is never met: ties go to the first. */
-static void pack_sphere(struct packing *packing, const struct scene_object *object)
+static void pack_object(struct packing *packing, const struct scene_object *object)
 {
     struct packed_scene *packed = packing->packed;
     const struct body body = body_of(object);
-    const struct PackedSphere sphere = {
-        .center_radius = to_vec4(dvec3_scale(packing->scale, body.vector), packing->scale * body.number),
-        .surface = pack_surface(packing->scene, object),
-    };
-    for (int i = 0; i < packed->sphere_count; ++i)
-        if (same_vec4(packed->spheres[i].center_radius, sphere.center_radius) &&
-            !is_transparent(&packed->spheres[i].surface))
-            return;
-    packed->spheres[packed->sphere_count++] = sphere;
-}
-
-static void pack_plane(struct packing *packing, const struct scene_object *object)
-{
-    struct packed_scene *packed = packing->packed;
-    const struct body body = body_of(object);
-    struct PackedPlane plane = {.surface = pack_surface(packing->scene, object)};
-    plane.surface.tags.CASTS_SHADOWS = is_transparent(&plane.surface);
-    bool turned =
-        !is_transparent(&plane.surface) && body_distance(body, dvec3_of(packing->scene->camera.position)) < 0;
+    PackedSurface surface = pack_surface(packing->scene, object);
+    bool turned = !body.is_ball && !is_transparent(&surface) &&
+                  body_distance(body, dvec3_of(packing->scene->camera.position)) < 0;
     double sign = turned ? -1 : 1;
-    plane.normal_offset = to_vec4(dvec3_scale(sign, body.vector), sign * packing->scale * body.number);
-    for (int i = 0; i < packed->plane_count; ++i)
-        if (same_vec4(packed->planes[i].normal_offset, plane.normal_offset) &&
-            !is_transparent(&packed->planes[i].surface))
+    layout_vec4 shape = to_vec4(dvec3_scale(body.is_ball ? packing->scale : sign, body.vector),
+                                sign * packing->scale * body.number);
+    for (int i = 0; i < body_count(packed); ++i)
+        if (hides(packed, i, body.is_ball, shape))
             return;
-    packed->planes[packed->plane_count++] = plane;
+    if (body.is_ball) {
+        packed->spheres[packed->sphere_count++] = (struct PackedSphere){shape, surface};
+    } else {
+        surface.tags.CASTS_SHADOWS = is_transparent(&surface);
+        packed->planes[packed->plane_count++] = (struct PackedPlane){shape, surface};
+    }
 }
 
 static bool lies_behind(const struct packed_scene *packed, int plane, struct dvec3 point)
@@ -223,7 +195,7 @@ static enum status pack_contents(struct packing *packing)
     struct packed_scene *packed = packing->packed;
     pack_view(packing);
     for (size_t i = 0; i < scene->object_count; ++i)
-        (scene->objects[i].type == OBJECT_SPHERE ? pack_sphere : pack_plane)(packing, &scene->objects[i]);
+        pack_object(packing, &scene->objects[i]);
     for (size_t i = 0; i < scene->light_count; ++i)
         if (pack_light(packing, &scene->lights[i]) != STATUS_DONE)
             return STATUS_REFUSED;
@@ -242,8 +214,22 @@ static enum status pack_contents(struct packing *packing)
 
 double pack_scale(const struct scene *scene)
 {
+    double extent = dvec3_largest(dvec3_of(scene->camera.position));
+    for (size_t i = 0; i < scene->object_count; ++i) {
+        const struct body body = body_of(&scene->objects[i]);
+        extent = fmax(extent, body.is_ball ? dvec3_largest(body.vector) + body.number : fabs(body.number));
+    }
+    for (size_t i = 0; i < scene->light_count; ++i) {
+        const struct scene_light *light = &scene->lights[i];
+        if (light->type == LIGHT_POINT)
+            extent = fmax(extent, dvec3_largest(dvec3_of(light->point.position)));
+        for (int k = 0; k < 4 && light->type == LIGHT_QUAD; ++k)
+            extent =
+                fmax(extent, dvec3_largest(dvec3_corner(dvec3_of(light->quad.corner), dvec3_of(light->quad.u),
+                                                        dvec3_of(light->quad.v), k)));
+    }
     int exponent;
-    frexp(scene_extent(scene), &exponent);
+    frexp(extent, &exponent);
     return ldexp(1, -exponent);
 }
 

@@ -48,13 +48,15 @@ void schema_expect(struct mapping *mapping, const struct yaml_value *value, cons
     schema_refuse(mapping, value->written, "%s must be %s, is %s", key, expected, describe(value, quote));
 }
 
-/* Writes names as "a, b and c", cut where there is no room. */
-static void list_names(char *out, size_t size, const char *const *names, size_t count, const char *last_word)
+enum { LIST_SIZE = 256 };
+
+/* Writes names, which end with NULL, as "a, b and c", cut where there is no room. */
+static void list_names(const char *const names[], const char *last_word, char out[LIST_SIZE])
 {
     size_t used = 0;
-    for (size_t i = 0; i < count && used < size; i++) {
-        const char *separator = i == 0 ? "" : i + 1 < count ? ", " : last_word;
-        used += (size_t)snprintf(out + used, size - used, "%s%s", separator, names[i]);
+    for (size_t i = 0; names[i] && used < LIST_SIZE; i++) {
+        const char *separator = i == 0 ? "" : names[i + 1] ? ", " : last_word;
+        used += (size_t)snprintf(out + used, LIST_SIZE - used, "%s%s", separator, names[i]);
     }
 }
 
@@ -93,13 +95,13 @@ static void find_type_and_label(struct mapping *mapping)
 
 static void refuse_key(struct mapping *mapping, const struct yaml_value *key, const char *problem)
 {
-    const char *names[MAX_FIELDS];
+    const char *names[MAX_FIELDS] = {NULL};
     size_t count = 0;
     for (const struct field *field = mapping->schema->fields; field->name; field++)
         if (takes(field, mapping->type))
             names[count++] = field->name;
-    char list[256] = "", quote[REPORT_QUOTE_SIZE];
-    list_names(list, sizeof(list), names, count, " and ");
+    char list[LIST_SIZE], quote[REPORT_QUOTE_SIZE];
+    list_names(names, " and ", list);
     schema_refuse(mapping, key->written, "%s %s; the keys here are %s", problem, describe(key, quote), list);
 }
 
@@ -107,11 +109,8 @@ void read_type(struct mapping *mapping, const struct field *field, const struct 
                void *member)
 {
     (void)member;
-    char list[128] = "";
-    size_t count = 0;
-    while (mapping->schema->types[count])
-        count++;
-    list_names(list, sizeof(list), mapping->schema->types, count, " or ");
+    char list[LIST_SIZE];
+    list_names(mapping->schema->types, " or ", list);
     if (mapping->type < 0)
         schema_expect(mapping, value, field->name, list);
 }
@@ -154,17 +153,13 @@ void read_vector(struct mapping *mapping, const struct field *field, const struc
 {
     double *component = member;
     int count = fy_node_sequence_item_count(value->node);
-    if (value->type != FYNT_SEQUENCE) {
+    if (value->type != FYNT_SEQUENCE)
         schema_expect(mapping, value, field->name, "a list of 3 numbers");
-        return;
-    }
-    if (count != 3) {
+    else if (count != 3)
         schema_refuse(mapping, value->written, "%s must be a list of 3 numbers, is a list of %d", field->name,
                       count);
-        return;
-    }
-    struct fy_node *item;
-    for (void *at = NULL; (item = fy_node_sequence_iterate(value->node, &at));) {
+    void *at = NULL;
+    for (struct fy_node *item; count == 3 && (item = fy_node_sequence_iterate(value->node, &at));) {
         const struct yaml_value number = yaml_read(mapping->report, item, value->written);
         read_number(mapping, field, &number, component++);
     }

@@ -90,11 +90,6 @@ static size_t printable_character(const unsigned char *text, size_t length)
     return code < least[size] || code > 0x10FFFF || surrogate || code == 0xFFFE || code == 0xFFFF ? 0 : size;
 }
 
-static int bracket(char byte)
-{
-    return byte == '[' || byte == '{' ? 1 : byte == ']' || byte == '}' ? -1 : 0;
-}
-
 /* Whether an anchor may begin at text[at]; in a text of several words that is "&" before one of them. */
 static bool may_be_anchor(const char *text, size_t length, size_t at)
 {
@@ -110,7 +105,8 @@ static void check_characters(struct diagnostics *report)
     int open = 0, anchors = 0;
     for (size_t at = 0, size; at < report->length && report->count == 0; at += size) {
         size = printable_character((const unsigned char *)text + at, report->length - at);
-        open = open + bracket(text[at]) > 0 ? open + bracket(text[at]) : 0;
+        open += text[at] == '[' || text[at] == '{';
+        open -= (text[at] == ']' || text[at] == '}') && open > 0;
         anchors += may_be_anchor(text, report->length, at);
         if (size == 0)
             report_error(report, place, "must be printable UTF-8 text, has the byte 0x%02X",
