@@ -7,7 +7,7 @@
 #include "bench/document.h"
 #include "bench/report.h"
 #include "check/compare.h"
-#include "scene/warnings.h"
+#include "scene/scene.h"
 
 /* What a bench may cost. */
 struct effort {

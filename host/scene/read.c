@@ -59,7 +59,7 @@ static const struct schema image_schema = {.label = "image", .fields = image_fie
 enum { MATTE = 1 << MATERIAL_MATTE, TRANSPARENT = 1 << MATERIAL_TRANSPARENT };
 static const struct field material_fields[MAX_FIELDS] = {
     {"name", read_name, true, 0, offsetof(struct scene_material, name), NULL},
-    {"type", read_type, true, 0, 0, NULL},
+    {"type", read_type, true, 0, offsetof(struct scene_material, type), NULL},
     {"color", read_vector, true, MATTE, offsetof(struct scene_material, color), albedo},
     {"roughness", read_number, false, MATTE, offsetof(struct scene_material, roughness), amount},
     {"ior", read_number, false, TRANSPARENT, offsetof(struct scene_material, ior), refraction},
@@ -70,7 +70,7 @@ static const struct schema material_schema = {
 enum { SPHERE = 1 << OBJECT_SPHERE, PLANE = 1 << OBJECT_PLANE };
 static const struct field object_fields[MAX_FIELDS] = {
     {"name", read_name, true, 0, offsetof(struct scene_object, name), NULL},
-    {"type", read_type, true, 0, 0, NULL},
+    {"type", read_type, true, 0, offsetof(struct scene_object, type), NULL},
     {"material", NULL, true, 0, 0, NULL},
     {"center", read_vector, true, SPHERE, offsetof(struct scene_object, sphere.center), coordinate},
     {"radius", read_number, true, SPHERE, offsetof(struct scene_object, sphere.radius), positive_length},
@@ -82,7 +82,7 @@ static const struct schema object_schema = {
 
 enum { POINT = 1 << LIGHT_POINT, QUAD = 1 << LIGHT_QUAD };
 static const struct field light_fields[MAX_FIELDS] = {
-    {"type", read_type, true, 0, 0, NULL},
+    {"type", read_type, true, 0, offsetof(struct scene_light, type), NULL},
     {"color", read_vector, false, 0, offsetof(struct scene_light, color), amount},
     {"power", read_number, true, 0, offsetof(struct scene_light, power), amount},
     {"position", read_vector, true, POINT, offsetof(struct scene_light, point.position), coordinate},
@@ -166,7 +166,6 @@ static void read_material(struct reading *reading, const struct yaml_value *valu
     struct mapping mapping;
     material->ior = 1.3;
     schema_read(reading->report, &material_schema, value, material, &mapping);
-    material->type = mapping.type < 0 ? MATERIAL_MATTE : (enum material_type)mapping.type;
     add_name(&mapping, material->name, item, &reading->material_names);
 }
 
@@ -190,11 +189,9 @@ static void read_object(struct reading *reading, const struct yaml_value *value,
     struct scene_object *object = item;
     struct mapping mapping;
     schema_read(reading->report, &object_schema, value, object, &mapping);
-    object->type = mapping.type < 0 ? OBJECT_SPHERE : (enum object_type)mapping.type;
     add_name(&mapping, object->name, item, &reading->object_names);
     find_material(reading, &mapping, object);
-    if (mapping.good)
-        object->place = yaml_place(reading->report, value->written);
+    object->place = yaml_place(reading->report, value->written);
     if (mapping.good && object->type == OBJECT_PLANE && dvec3_largest(dvec3_of(object->plane.normal)) == 0)
         schema_refuse(&mapping, schema_find(&mapping, "normal").written, "normal must not be zero");
 }
@@ -205,9 +202,7 @@ static void read_light(struct reading *reading, const struct yaml_value *value, 
     struct mapping mapping;
     light->color[0] = light->color[1] = light->color[2] = 1;
     schema_read(reading->report, &light_schema, value, light, &mapping);
-    light->type = mapping.type < 0 ? LIGHT_POINT : (enum light_type)mapping.type;
-    if (mapping.good)
-        light->place = yaml_place(reading->report, value->written);
+    light->place = yaml_place(reading->report, value->written);
     if (!mapping.good || light->type != LIGHT_QUAD)
         return;
     struct dvec3 u = dvec3_of(light->quad.u), v = dvec3_of(light->quad.v);

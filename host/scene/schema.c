@@ -105,20 +105,19 @@ static void refuse_key(struct mapping *mapping, const struct yaml_value *key, co
     schema_refuse(mapping, key->written, "%s %s; the keys here are %s", problem, describe(key, quote), list);
 }
 
-void read_type(struct mapping *mapping, const struct field *field, const struct yaml_value *value,
-               void *member)
+void read_type(struct mapping *mapping, const struct field *field, const struct yaml_value *value, void *to)
 {
-    (void)member;
     char list[LIST_SIZE];
     list_names(mapping->schema->types, " or ", list);
     if (mapping->type < 0)
         schema_expect(mapping, value, field->name, list);
+    else
+        *(unsigned *)to = (unsigned)mapping->type;
 }
 
-void read_name(struct mapping *mapping, const struct field *field, const struct yaml_value *value,
-               void *member)
+void read_name(struct mapping *mapping, const struct field *field, const struct yaml_value *value, void *to)
 {
-    char **name = member;
+    char **name = to;
     bool printable = value->length > 0;
     for (size_t i = 0; i < value->length && i < YAML_TEXT_SIZE - 1 && printable; i++)
         printable = (unsigned char)value->text[i] >= 0x20 && value->text[i] != 0x7F;
@@ -130,8 +129,7 @@ void read_name(struct mapping *mapping, const struct field *field, const struct 
         mapping->report->no_memory = true;
 }
 
-void read_number(struct mapping *mapping, const struct field *field, const struct yaml_value *value,
-                 void *member)
+void read_number(struct mapping *mapping, const struct field *field, const struct yaml_value *value, void *to)
 {
     double number;
     const char *expected = NULL;
@@ -145,13 +143,12 @@ void read_number(struct mapping *mapping, const struct field *field, const struc
     if (expected)
         schema_expect(mapping, value, field->name, expected);
     else
-        *(double *)member = number;
+        *(double *)to = number;
 }
 
-void read_vector(struct mapping *mapping, const struct field *field, const struct yaml_value *value,
-                 void *member)
+void read_vector(struct mapping *mapping, const struct field *field, const struct yaml_value *value, void *to)
 {
-    double *component = member;
+    double *component = to;
     int count = fy_node_sequence_item_count(value->node);
     if (value->type != FYNT_SEQUENCE)
         schema_expect(mapping, value, field->name, "a list of 3 numbers");
@@ -165,8 +162,7 @@ void read_vector(struct mapping *mapping, const struct field *field, const struc
     }
 }
 
-void read_count(struct mapping *mapping, const struct field *field, const struct yaml_value *value,
-                void *member)
+void read_count(struct mapping *mapping, const struct field *field, const struct yaml_value *value, void *to)
 {
     unsigned long count;
     const struct bound *bound = field->bounds;
@@ -174,7 +170,7 @@ void read_count(struct mapping *mapping, const struct field *field, const struct
     snprintf(expected, sizeof expected, "a whole number within %.0f..%.0f", bound->least, bound->most);
     if (value->plain && parse_unsigned(value->text, value->length, UINT_MAX, &count) &&
         (double)count >= bound->least && (double)count <= bound->most)
-        *(unsigned *)member = (unsigned)count;
+        *(unsigned *)to = (unsigned)count;
     else
         schema_expect(mapping, value, field->name, expected);
 }

@@ -20,7 +20,7 @@ struct bound {
 struct mapping;
 struct field;
 typedef void field_reader(struct mapping *mapping, const struct field *field, const struct yaml_value *value,
-                          void *member);
+                          void *to);
 
 struct field {
     const char *name;
@@ -31,7 +31,7 @@ struct field {
     const struct bound *bounds;
 };
 
-field_reader read_type;   /* one of schema.types; goes to mapping.type */
+field_reader read_type;   /* one of schema.types, to unsigned or enum */
 field_reader read_name;   /* to char *, allocated: not empty, no control characters */
 field_reader read_number; /* to double */
 field_reader read_vector; /* to double[3] */

@@ -39,11 +39,12 @@ static double distance_from_quad(const struct PackedQuadLight *quad, struct dvec
     double at_v = dvec3_dot(dvec3_cross(u, way), normal) / area_squared;
     if (at_u >= 0 && at_u <= 1 && at_v >= 0 && at_v <= 1)
         return fabs(dvec3_dot(way, normal)) / sqrt(area_squared);
-    double to_u_edges = fmin(distance_from_segment(quad_corner(quad, 0), u, point),
-                             distance_from_segment(quad_corner(quad, 2), u, point));
-    double to_v_edges = fmin(distance_from_segment(quad_corner(quad, 0), v, point),
-                             distance_from_segment(quad_corner(quad, 1), v, point));
-    return fmin(to_u_edges, to_v_edges);
+    double nearest = INFINITY;
+    for (int i = 0; i < 2; ++i) {
+        nearest = fmin(nearest, distance_from_segment(quad_corner(quad, 2 * i), u, point));
+        nearest = fmin(nearest, distance_from_segment(quad_corner(quad, i), v, point));
+    }
+    return nearest;
 }
 
 /* Between the body's surface and the quad; 0 where they meet. */

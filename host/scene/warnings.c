@@ -1,5 +1,3 @@
-#include "scene/warnings.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 
