@@ -18,17 +18,16 @@
 /* Sine of the angle under which two directions count as parallel: some 10 units in float's last place. */
 #define LEAST_SINE 1e-6
 
-static const struct bound coordinate[BOUNDS] = {{-MOST, MOST, false, "within -1e15..1e15"}};
-static const struct bound positive_length[BOUNDS] = {{0, INFINITY, true, "> 0"},
-                                                     {LEAST_LENGTH, MOST, false, "within 1e-15..1e15"}};
-static const struct bound field_of_view[BOUNDS] = {{0, 180, true, "> 0 and < 180 degrees"}};
-static const struct bound refraction[BOUNDS] = {{0, INFINITY, true, "> 0"},
-                                                {1e-3, 1e3, false, "within 0.001..1000"}};
-static const struct bound albedo[BOUNDS] = {{0, 1, false, "within 0..1"}};
-static const struct bound amount[BOUNDS] = {{0, MOST, false, "within 0..1e15"}};
-static const struct bound picture_side[BOUNDS] = {{1, SCENE_MAX_SIZE, false, ""}};
-static const struct bound bounce_count[BOUNDS] = {{0, SCENE_MAX_BOUNCES, false, ""}};
-static const struct bound sample_count[BOUNDS] = {{1, SCENE_MAX_SAMPLES, false, ""}};
+static const struct bounds coordinate = {-MOST, MOST, "within -1e15..1e15", false};
+static const struct bounds positive_length = {LEAST_LENGTH, MOST, "within 1e-15..1e15", true};
+static const struct bounds field_of_view = {/* just above 0, just below 180 */ 0x1p-1074, 180 - 0x1p-45,
+                                            "> 0 and < 180 degrees", false};
+static const struct bounds refraction = {1e-3, 1e3, "within 0.001..1000", true};
+static const struct bounds albedo = {0, 1, "within 0..1", false};
+static const struct bounds amount = {0, MOST, "within 0..1e15", false};
+static const struct bounds picture_side = {1, SCENE_MAX_SIZE, "", false};
+static const struct bounds bounce_count = {0, SCENE_MAX_BOUNCES, "", false};
+static const struct bounds sample_count = {1, SCENE_MAX_SAMPLES, "", false};
 
 static const struct field scene_fields[MAX_FIELDS] = {
     {"camera", NULL, true, 0, 0, NULL},
@@ -36,23 +35,23 @@ static const struct field scene_fields[MAX_FIELDS] = {
     {"materials", NULL, false, 0, 0, NULL},
     {"objects", NULL, false, 0, 0, NULL},
     {"lights", NULL, false, 0, 0, NULL},
-    {"background", read_vector, false, 0, offsetof(struct scene, background), amount},
-    {"max_bounces", read_count, false, 0, offsetof(struct scene, max_bounces), bounce_count},
-    {"light_samples", read_count, false, 0, offsetof(struct scene, light_samples), sample_count},
+    {"background", read_vector, false, 0, offsetof(struct scene, background), &amount},
+    {"max_bounces", read_count, false, 0, offsetof(struct scene, max_bounces), &bounce_count},
+    {"light_samples", read_count, false, 0, offsetof(struct scene, light_samples), &sample_count},
 };
 static const struct schema scene_schema = {.label = "", .fields = scene_fields};
 
 static const struct field camera_fields[MAX_FIELDS] = {
-    {"position", read_vector, true, 0, offsetof(struct scene_camera, position), coordinate},
-    {"look_at", read_vector, true, 0, offsetof(struct scene_camera, look_at), coordinate},
+    {"position", read_vector, true, 0, offsetof(struct scene_camera, position), &coordinate},
+    {"look_at", read_vector, true, 0, offsetof(struct scene_camera, look_at), &coordinate},
     {"up", read_vector, false, 0, offsetof(struct scene_camera, up), NULL},
-    {"fov_y", read_number, false, 0, offsetof(struct scene_camera, fov_y_degrees), field_of_view},
+    {"fov_y", read_number, false, 0, offsetof(struct scene_camera, fov_y_degrees), &field_of_view},
 };
 static const struct schema camera_schema = {.label = "camera", .fields = camera_fields};
 
 static const struct field image_fields[MAX_FIELDS] = {
-    {"width", read_count, true, 0, offsetof(struct scene, width), picture_side},
-    {"height", read_count, true, 0, offsetof(struct scene, height), picture_side},
+    {"width", read_count, true, 0, offsetof(struct scene, width), &picture_side},
+    {"height", read_count, true, 0, offsetof(struct scene, height), &picture_side},
 };
 static const struct schema image_schema = {.label = "image", .fields = image_fields};
 
@@ -60,9 +59,9 @@ enum { MATTE = 1 << MATERIAL_MATTE, TRANSPARENT = 1 << MATERIAL_TRANSPARENT };
 static const struct field material_fields[MAX_FIELDS] = {
     {"name", read_name, true, 0, offsetof(struct scene_material, name), NULL},
     {"type", read_type, true, 0, offsetof(struct scene_material, type), NULL},
-    {"color", read_vector, true, MATTE, offsetof(struct scene_material, color), albedo},
-    {"roughness", read_number, false, MATTE, offsetof(struct scene_material, roughness), amount},
-    {"ior", read_number, false, TRANSPARENT, offsetof(struct scene_material, ior), refraction},
+    {"color", read_vector, true, MATTE, offsetof(struct scene_material, color), &albedo},
+    {"roughness", read_number, false, MATTE, offsetof(struct scene_material, roughness), &amount},
+    {"ior", read_number, false, TRANSPARENT, offsetof(struct scene_material, ior), &refraction},
 };
 static const struct schema material_schema = {
     .label = "material", .types = {"matte", "mirror", "transparent"}, .fields = material_fields};
@@ -72,9 +71,9 @@ static const struct field object_fields[MAX_FIELDS] = {
     {"name", read_name, true, 0, offsetof(struct scene_object, name), NULL},
     {"type", read_type, true, 0, offsetof(struct scene_object, type), NULL},
     {"material", NULL, true, 0, 0, NULL},
-    {"center", read_vector, true, SPHERE, offsetof(struct scene_object, sphere.center), coordinate},
-    {"radius", read_number, true, SPHERE, offsetof(struct scene_object, sphere.radius), positive_length},
-    {"point", read_vector, true, PLANE, offsetof(struct scene_object, plane.point), coordinate},
+    {"center", read_vector, true, SPHERE, offsetof(struct scene_object, sphere.center), &coordinate},
+    {"radius", read_number, true, SPHERE, offsetof(struct scene_object, sphere.radius), &positive_length},
+    {"point", read_vector, true, PLANE, offsetof(struct scene_object, plane.point), &coordinate},
     {"normal", read_vector, true, PLANE, offsetof(struct scene_object, plane.normal), NULL},
 };
 static const struct schema object_schema = {
@@ -83,12 +82,12 @@ static const struct schema object_schema = {
 enum { POINT = 1 << LIGHT_POINT, QUAD = 1 << LIGHT_QUAD };
 static const struct field light_fields[MAX_FIELDS] = {
     {"type", read_type, true, 0, offsetof(struct scene_light, type), NULL},
-    {"color", read_vector, false, 0, offsetof(struct scene_light, color), amount},
-    {"power", read_number, true, 0, offsetof(struct scene_light, power), amount},
-    {"position", read_vector, true, POINT, offsetof(struct scene_light, point.position), coordinate},
-    {"corner", read_vector, true, QUAD, offsetof(struct scene_light, quad.corner), coordinate},
-    {"u", read_vector, true, QUAD, offsetof(struct scene_light, quad.u), coordinate},
-    {"v", read_vector, true, QUAD, offsetof(struct scene_light, quad.v), coordinate},
+    {"color", read_vector, false, 0, offsetof(struct scene_light, color), &amount},
+    {"power", read_number, true, 0, offsetof(struct scene_light, power), &amount},
+    {"position", read_vector, true, POINT, offsetof(struct scene_light, point.position), &coordinate},
+    {"corner", read_vector, true, QUAD, offsetof(struct scene_light, quad.corner), &coordinate},
+    {"u", read_vector, true, QUAD, offsetof(struct scene_light, quad.u), &coordinate},
+    {"v", read_vector, true, QUAD, offsetof(struct scene_light, quad.v), &coordinate},
 };
 static const struct schema light_schema = {
     .label = "light", .types = {"point", "quad"}, .fields = light_fields};

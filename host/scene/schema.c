@@ -132,14 +132,15 @@ void read_name(struct mapping *mapping, const struct field *field, const struct 
 void read_number(struct mapping *mapping, const struct field *field, const struct yaml_value *value, void *to)
 {
     double number;
+    const struct bounds *bounds = field->bounds;
     const char *expected = NULL;
     if (!is_number(value, &number))
         expected = field->read == read_vector ? "a finite decimal number in each component"
                                               : "a finite decimal number";
-    for (const struct bound *bound = field->bounds; bound && bound->rule && !expected; bound++)
-        if (bound->open ? number <= bound->least || number >= bound->most
-                        : number < bound->least || number > bound->most)
-            expected = bound->rule;
+    else if (bounds && bounds->positive && number <= 0)
+        expected = "> 0";
+    else if (bounds && (number < bounds->least || number > bounds->most))
+        expected = bounds->rule;
     if (expected)
         schema_expect(mapping, value, field->name, expected);
     else
@@ -165,11 +166,11 @@ void read_vector(struct mapping *mapping, const struct field *field, const struc
 void read_count(struct mapping *mapping, const struct field *field, const struct yaml_value *value, void *to)
 {
     unsigned long count;
-    const struct bound *bound = field->bounds;
+    const struct bounds *bounds = field->bounds;
     char expected[64];
-    snprintf(expected, sizeof expected, "a whole number within %.0f..%.0f", bound->least, bound->most);
+    snprintf(expected, sizeof expected, "a whole number within %.0f..%.0f", bounds->least, bounds->most);
     if (value->plain && parse_unsigned(value->text, value->length, UINT_MAX, &count) &&
-        (double)count >= bound->least && (double)count <= bound->most)
+        (double)count >= bounds->least && (double)count <= bounds->most)
         *(unsigned *)to = (unsigned)count;
     else
         schema_expect(mapping, value, field->name, expected);

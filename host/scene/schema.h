@@ -5,16 +5,13 @@
 
 /* Which keys a mapping of a scene file takes, and reading such a mapping into a struct. */
 
-enum {
-    BOUNDS = 3,      /* places for bounds on a number; the list ends at one without a rule */
-    MAX_FIELDS = 16, /* the last has no name */
-};
+enum { MAX_FIELDS = 16 }; /* of a schema; the last has no name */
 
-/* A bound on a number, with the words for "must be ...". */
-struct bound {
+/* Bounds of a number, both inside, with the words for "must be ...". */
+struct bounds {
     double least, most;
-    bool open; /* least and most themselves are outside */
     const char *rule;
+    bool positive; /* 0 and less are refused with "> 0" */
 };
 
 struct mapping;
@@ -26,9 +23,9 @@ struct field {
     const char *name;
     field_reader *read; /* NULL: only found */
     bool required;
-    unsigned types; /* bit set of the types that take it; 0: all */
-    size_t offset;  /* in the struct read into */
-    const struct bound *bounds;
+    unsigned types;              /* bit set of the types that take it; 0: all */
+    size_t offset;               /* in the struct read into */
+    const struct bounds *bounds; /* NULL: none */
 };
 
 field_reader read_type;   /* one of schema.types, to unsigned or enum */

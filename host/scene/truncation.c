@@ -119,27 +119,25 @@ static double rounding(const struct packed_scene *scene, double radiance)
 static layout_vec4 between_mirrors(const struct packed_scene *scene)
 {
     const layout_vec4 none = {0, 0, 0, 0};
-    layout_vec4 normal = none;
-    bool faced = false;
+    int mirror = 0;
+    while (mirror < scene->plane_count && scene->planes[mirror].surface.tags.SURFACE_KIND != KIND_MIRROR)
+        ++mirror;
+    if (mirror == scene->plane_count)
+        return none;
+    layout_vec4 normal = scene->planes[mirror].normal_offset;
+    normal.w = 0;
     for (int i = 0; i < scene->plane_count; ++i) {
         layout_vec4 other = scene->planes[i].normal_offset;
-        if (scene->planes[i].surface.tags.SURFACE_KIND != KIND_MIRROR)
-            continue;
-        if (normal.w == 0)
-            normal = (layout_vec4){other.x, other.y, other.z, 1};
+        int kind = scene->planes[i].surface.tags.SURFACE_KIND;
+        double cosine = dvec3_dot(dvec3_of_vec4(normal), dvec3_of_vec4(other));
         bool parallel = other.x == normal.x && other.y == normal.y && other.z == normal.z;
         bool faces = other.x == -normal.x && other.y == -normal.y && other.z == -normal.z;
-        if (!parallel && !faces)
+        if (kind == KIND_MIRROR ? !parallel && !faces : kind == KIND_TRANSPARENT || fabs(cosine) > accuracy)
             return none;
-        faced |= faces;
+        if (kind == KIND_MIRROR && faces)
+            normal.w = 1;
     }
-    for (int i = 0; i < scene->plane_count; ++i) {
-        int kind = scene->planes[i].surface.tags.SURFACE_KIND;
-        double cosine = dvec3_dot(dvec3_of_vec4(normal), dvec3_of_vec4(scene->planes[i].normal_offset));
-        if (kind == KIND_TRANSPARENT || (kind == KIND_MATTE && fabs(cosine) > accuracy))
-            return none;
-    }
-    return faced ? normal : none;
+    return normal.w > 0 ? normal : none;
 }
 
 void truncation_pack(struct packed_scene *scene, double max_error)
