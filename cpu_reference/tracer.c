@@ -16,7 +16,7 @@ struct sample {
     const struct packed_scene *scene;
     uint32_t seed, index;
     struct vec3 radiance, rounding; /* the rounded sum, and what rounding took from it */
-    real charge;                    /* for rays that were not traced */
+    real charge;                    /* for rays that were not traced, see ROUND_UP */
     struct tally tally;
 };
 
@@ -24,7 +24,8 @@ struct path {
     struct ray ray;
     real weight;
     int bounces;
-    uint32_t branch; /* in the binary tree of splits: 0 the root, 2 i + 1 and 2 i + 2 the children of i */
+    uint32_t branch; /* of the binary ray tree that glass makes: 0 the root; of i, 2 i + 1 refracted, 2 i + 2
+                      * reflected */
 };
 
 static void trace(struct sample *sample, const struct path *path);
@@ -35,13 +36,13 @@ static void trace_secondary(struct sample *sample, const struct path *path)
     trace(sample, path);
 }
 
-/* The charge with what a ray of this weight may bring on top, rounded up. */
+/* The sample's charge if a ray of this weight is not traced either, rounded up. */
 static real charge_with(const struct sample *sample, real weight)
 {
     return (sample->charge + weight * (real)sample->scene->view.truncation.RADIANCE_BOUND) * (real)ROUND_UP;
 }
 
-/* Whether a ray of this weight is to be traced; otherwise it has been charged. */
+/* Whether a ray of this weight is to be traced; where it is not, the sample has been charged for it. */
 static bool is_traced(struct sample *sample, real weight)
 {
     real charge = charge_with(sample, weight);
@@ -139,9 +140,9 @@ static void trace(struct sample *sample, const struct path *path)
         trace_dielectric(sample, path, &hit, reflected);
         return;
     }
-    bool lost = scene->view.between_mirrors.w != 0 && escapes(scene, &reflected.ray);
-    RECORD_UNTRACED(lost, UNTRACED_ESCAPES, path->weight, 0, sample->charge);
-    if (!lost)
+    bool escaping = scene->view.between_mirrors.w != 0 && escapes(scene, &reflected.ray);
+    RECORD_UNTRACED(escaping, UNTRACED_ESCAPES, path->weight, 0, sample->charge);
+    if (!escaping)
         trace_secondary(sample, &reflected);
 }
 

@@ -1,6 +1,6 @@
-// Ray trees too large for one dispatch. Lavapipe runs an invocation in each lane of a vector and ends all loops of a
-// vector, without a word, after 65535 turns together. So turns are counted here. A resumable pipeline traces a sample for
-// some turns and leaves the rest of the tree in buffers, for the next dispatch.
+// Ray trees too large for one dispatch. Lavapipe runs an invocation in each lane of a vector. It ends all loops of a
+// vector after 65535 turns, counted together, and reports nothing; so turns are counted here. A resumable pipeline
+// traces a sample for some turns and saves the rest of its tree in buffers, for the next dispatch.
 
 uint most_rays = 0u, most_leaves = 0u; // of a sample, in this lane
 

@@ -52,16 +52,17 @@ typedef struct PackedSurface PackedSurface;
 #define UNFINISHED (-1.0)
 #define TOO_LONG (-2.0)
 
-/* What the direction of a ray and the line it keeps to between parallel mirrors may be off by after 1000 bounces,
- * relative: a bounce loses less than 2^-20. */
+/* What the direction of a ray, and its line projected along the normal of the parallel mirrors that reflect it, may
+ * be off by after 1000 bounces, relative: a bounce loses less than 2^-20. */
 #define MIRROR_DRIFT 0.0009765625 /* 2^-10 */
 
-/* A ray that is not traced is charged the most that it could have brought, its weight times the bound on
- * radiance. Charges are summed to nearest; this factor after each makes them sums rounded up. */
+/* The charge for a ray that is not traced is the most that it could have brought: its weight, which is its share
+ * in the pixel, times the bound on radiance. Charges are summed to nearest; this factor after each addition makes
+ * the sum one that is rounded up. */
 #define ROUND_UP 1.0000002384185791015625 /* 1 + 2^-22 */
 
-/* A ray is left out on purpose if it is charged at most this share of what is left of the allowance; see
- * NUMERICS.md. */
+/* A ray is left out on purpose if its charge is at most this share of what is left of the allowance; see
+ * cpu_reference/NUMERICS.md. */
 #define LARGEST_SHARE 0.25
 
 /* What both tracers can tell of one pixel: events in the order of the recursion. Each has a head and values: two
@@ -80,7 +81,7 @@ typedef struct PackedSurface PackedSurface;
 #define UNTRACED_REFLECTED 0
 #define UNTRACED_REFRACTED 1
 #define UNTRACED_BOUNCES 2 /* max_bounces */
-#define UNTRACED_ESCAPES 3    /* between parallel mirrors, where nothing else is */
+#define UNTRACED_ESCAPES 3 /* see escape.glsl */
 
 #define LIGHT_TOO_NEAR 0 /* to shine, see NEAREST_LIGHT_SQUARED */
 #define LIGHT_BEHIND 1   /* the surface */
@@ -164,7 +165,7 @@ struct PackedView {
     LAYOUT_VEC4 background; /* radiance */
     LAYOUT_VEC4 matte;
     LAYOUT_VEC4 truncation;
-    LAYOUT_VEC4 between_mirrors; /* xyz: unit normal of parallel mirrors, w: not 0 where rays that get lost
+    LAYOUT_VEC4 between_mirrors; /* xyz: unit normal of parallel mirrors, w: not 0 where rays that escape
                                   * between them are to be left out */
 };
 

@@ -34,7 +34,7 @@ const bool CHARGES = PRUNES || OUTPUT == OUTPUT_TRUNCATION || RECORDS;
 struct Pixel {
     real3 radiance; // sum over the samples
     real3 leaves, rounding; // of the sample: the rounded sum of what its rays see, and what rounding took from it
-    real charge; // the sample's, for rays that are not traced
+    real charge; // the sample's, for rays that are not traced, see ROUND_UP
     real charges; // of the samples before
     uint seed;
     uint sample_index;
@@ -49,7 +49,7 @@ void charge(inout Pixel pixel, real weight)
     pixel.charge = sum;
 }
 
-// Whether a ray of this weight is to be traced; otherwise it has been charged.
+// Whether a ray of this weight is to be traced; where it is not, the sample has been charged for it.
 bool is_traced(inout Pixel pixel, real weight)
 {
     bool traced = weight > real(SMALLEST_WEIGHT);
@@ -115,9 +115,9 @@ bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real
     path.ray.surface = hit.surface;
     path.ray.inward = hit.from_inside;
     if (!GLASS || hit.kind != KIND_TRANSPARENT) {
-        bool lost = RAYS_ESCAPE && escapes(path.ray);
-        emit_untraced(lost, UNTRACED_ESCAPES, path.weight, pixel.charge);
-        return !lost;
+        bool escaping = RAYS_ESCAPE && escapes(path.ray);
+        emit_untraced(escaping, UNTRACED_ESCAPES, path.weight, pixel.charge);
+        return !escaping;
     }
 
     real eta = real(hit.from_inside ? hit.parameters.ETA_EXITING : hit.parameters.ETA_ENTERING);
@@ -146,7 +146,7 @@ bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real
     return reflects || refracts;
 }
 
-// Adds what the path's last ray sees to the sample. The exact rounding error of each sum is kept (Knuth, TAOCP 2,
+// Adds a leaf of the ray tree to the sample: what a ray sees that ends here. The exact rounding error of each sum is kept (Knuth, TAOCP 2,
 // 4.2.2), so that leaving out rays changes the picture by what they would have brought, and not by how the others
 // round.
 void add_leaf(inout Pixel pixel, Path path, Hit hit, real3 point, real3 normal)

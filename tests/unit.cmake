@@ -12,9 +12,6 @@ add_unit_test(bench)
 target_link_options(unit_bench PRIVATE -Wl,--wrap=calloc,--wrap=malloc) # to have them fail
 add_unit_test(camera_motion)
 add_unit_test(compare)
-if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND NOT VKWHITTED_SANITIZE)
-    add_unit_test(convergence) # dear, and the same bits in all builds
-endif()
 add_unit_test(fit)
 add_unit_test(image)
 add_unit_test(number)
@@ -29,8 +26,13 @@ add_unit_test(srgb)
 add_unit_test(warnings)
 add_unit_test(text_file)
 
-# These open a device.
-foreach(module pixel properties total_reflection tracer truncation values)
+# These open a device. The dear ones, with the same bits in all builds, run in one.
+set(device_modules pixel tracer)
+if(VKWHITTED_TESTS STREQUAL "all")
+    add_unit_test(convergence)
+    list(APPEND device_modules properties total_reflection truncation values)
+endif()
+foreach(module IN LISTS device_modules)
     add_unit_test(${module})
     set_tests_properties(unit/${module} PROPERTIES LABELS "unit;device" TIMEOUT 600)
 endforeach()

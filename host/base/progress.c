@@ -27,7 +27,7 @@ void progress_advance(struct progress *progress, uint64_t amount)
     if (!progress->enabled || elapsed_ms < 500 || progress->done == 0)
         return;
     double fraction = (double)progress->done / (double)progress->total;
-    int filled = (int)(fraction * BAR_WIDTH);
+    int filled = (int)(fraction * (double)BAR_WIDTH);
     fprintf(stderr, "\r%s [%.*s%*s] %3.0f %%  %.0f s left \033[K", progress->label, filled,
             "########################################", BAR_WIDTH - filled, "", fraction * 100,
             elapsed_ms / 1000 * (1 - fraction) / fraction);

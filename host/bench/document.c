@@ -8,6 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/json.h"
 #include "base/statistics.h"
 
 enum { SLOPE_FROM = 4, SLOPE_TO = 256 };
@@ -45,12 +46,6 @@ const struct bench_point *bench_fastest_within(const struct bench_point *points,
     return best;
 }
 
-/* JSON has no infinity and no NaN. */
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 double bench_number(const json_t *object, const char *key)
 {
     const json_t *value = json_object_get(object, key);
@@ -80,11 +75,12 @@ static void append(json_t **array, json_t *value)
 
 static json_t *describe_error(const struct bench_error *error)
 {
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:I}", "max", number(error->max), "rmse",
-                     number(error->rmse), "rmse_uncertainty", number(error->rmse_uncertainty), "absolute_999",
-                     number(error->absolute_999), "relative_median", number(error->relative_median),
-                     "relative_999", number(error->relative_999), "pixels_off_8bit",
-                     (json_int_t)error->pixels_off_8bit);
+    return json_pack(
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:I}", "max", json_real_or_null(error->max), "rmse",
+        json_real_or_null(error->rmse), "rmse_uncertainty", json_real_or_null(error->rmse_uncertainty),
+        "absolute_999", json_real_or_null(error->absolute_999), "relative_median",
+        json_real_or_null(error->relative_median), "relative_999", json_real_or_null(error->relative_999),
+        "pixels_off_8bit", (json_int_t)error->pixels_off_8bit);
 }
 
 static json_t *describe_point(const struct bench_point *point)
@@ -95,20 +91,20 @@ static json_t *describe_point(const struct bench_point *point)
     double total = (double)(rays->primary + rays->secondary + rays->shadow);
     bool on_cpu = setting->backend == BACKEND_CPU;
     json_int_t threads = setting->threads ? (json_int_t)setting->threads : sysconf(_SC_NPROCESSORS_ONLN);
-    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:s, s:s, s:o, s:i, s:i, s:i, s:f, s:[f, f], s:i, s:f, s:f, "
-                     "s:{s:I, s:I, s:I}, s:o, s:o, s:b}",
-                     "label", setting->label, "options", setting->options, "family",
-                     family_names[setting->family], "backend", on_cpu ? "cpu" : "vulkan", "threads",
-                     on_cpu ? json_integer(threads) : json_null(), "precision",
-                     precision_name(setting->precision), "mode", setting->fast ? "fast" : "exact",
-                     "max_error", picture->has_max_error ? json_real(picture->max_error) : json_null(),
-                     "max_bounces", (int)picture->max_bounces, "light_samples", (int)picture->light_samples,
-                     "samples", (int)picture->samples, "time_ms", point->median_ms, "time_quartiles_ms",
-                     point->quartiles_ms[0], point->quartiles_ms[1], "runs", (int)point->run_count,
-                     "first_ms", point->first_ms, "setup_ms", point->setup_ms, "rays", "primary",
-                     (json_int_t)rays->primary, "secondary", (json_int_t)rays->secondary, "shadow",
-                     (json_int_t)rays->shadow, "rays_per_second", number(total / point->median_ms * 1000),
-                     "error", describe_error(&point->error), "pareto", point->pareto);
+    return json_pack(
+        "{s:s, s:s, s:s, s:s, s:o, s:s, s:s, s:o, s:i, s:i, s:i, s:f, s:[f, f], s:i, s:f, s:f, "
+        "s:{s:I, s:I, s:I}, s:o, s:o, s:b}",
+        "label", setting->label, "options", setting->options, "family", family_names[setting->family],
+        "backend", on_cpu ? "cpu" : "vulkan", "threads", on_cpu ? json_integer(threads) : json_null(),
+        "precision", precision_name(setting->precision), "mode", setting->fast ? "fast" : "exact",
+        "max_error", picture->has_max_error ? json_real(picture->max_error) : json_null(), "max_bounces",
+        (int)picture->max_bounces, "light_samples", (int)picture->light_samples, "samples",
+        (int)picture->samples, "time_ms", point->median_ms, "time_quartiles_ms", point->quartiles_ms[0],
+        point->quartiles_ms[1], "runs", (int)point->run_count, "first_ms", point->first_ms, "setup_ms",
+        point->setup_ms, "rays", "primary", (json_int_t)rays->primary, "secondary",
+        (json_int_t)rays->secondary, "shadow", (json_int_t)rays->shadow, "rays_per_second",
+        json_real_or_null(total / point->median_ms * 1000), "error", describe_error(&point->error), "pareto",
+        point->pareto);
 }
 
 /* How RMSE falls with the samples that the family varies. */
@@ -124,15 +120,15 @@ static json_t *describe_convergence(const struct bench_result *result, enum benc
             continue;
         unsigned samples = family == FAMILY_SAMPLES ? picture->samples : picture->light_samples;
         append(&values, json_integer((json_int_t)samples));
-        append(&rmse, number(point->error.rmse));
+        append(&rmse, json_real_or_null(point->error.rmse));
         if (samples < SLOPE_FROM || samples > SLOPE_TO)
             continue;
         x[fitted] = samples;
         y[fitted++] = point->error.rmse;
     }
     return json_pack("{s:s, s:o, s:o, s:o, s:i, s:i}", "family", family_names[family], "values", values,
-                     "rmse", rmse, "slope", number(log_log_slope(x, y, fitted)), "slope_from", SLOPE_FROM,
-                     "slope_to", SLOPE_TO);
+                     "rmse", rmse, "slope", json_real_or_null(log_log_slope(x, y, fitted)), "slope_from",
+                     SLOPE_FROM, "slope_to", SLOPE_TO);
 }
 
 static json_t *describe_recommendation(const struct bench_result *result, double error)
@@ -148,9 +144,10 @@ static json_t *describe_rounding(const struct bench_result *result)
 {
     const struct judgement *rounding = &result->rounding;
     return json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:I}", "against", "quad", "pixels",
-                     (json_int_t)result->rounding_pixels, "median", number(rounding->median), "p99",
-                     number(rounding->percentile_99), "p9999", number(rounding->percentile_99_99), "max",
-                     number(rounding->max), "unexplained", (json_int_t)rounding->unexplained);
+                     (json_int_t)result->rounding_pixels, "median", json_real_or_null(rounding->median),
+                     "p99", json_real_or_null(rounding->percentile_99), "p9999",
+                     json_real_or_null(rounding->percentile_99_99), "max", json_real_or_null(rounding->max),
+                     "unexplained", (json_int_t)rounding->unexplained);
 }
 
 json_t *bench_scene_document(const struct bench_result *result)

@@ -5,7 +5,7 @@
 
 #include "image/image.h"
 
-/* The picture as "render" and, with a reference, where it differs from that as "heatmap" (see compare.h),
+/* The picture as "render" and, with a reference, where it differs from that as "heatmap" (see heatmap.h),
  * each a PNG in base64, in an object that the caller frees. On failure (reported) *pictures is NULL. */
 enum status report_pictures(const struct image *image, const struct image *reference, json_t **pictures);
 

@@ -7,7 +7,7 @@ static const char *const untraced[MOST_EVENT_NAMES] = {
     [UNTRACED_REFLECTED] = "reflected ray not traced",
     [UNTRACED_REFRACTED] = "refracted ray not traced",
     [UNTRACED_BOUNCES] = "no further ray: max_bounces",
-    [UNTRACED_ESCAPES] = "no further ray: lost between mirrors",
+    [UNTRACED_ESCAPES] = "no further ray: escapes between mirrors",
 };
 static const char *const shines[MOST_EVENT_NAMES] = {
     [LIGHT_TOO_NEAR] = "too near to shine",

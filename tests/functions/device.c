@@ -8,7 +8,6 @@
 enum { SCENE_BINDINGS = 5, INPUTS = SCENE_BINDINGS, OUTPUTS, BINDINGS };
 enum { GROUP = 64 }; /* invocations, as in functions.comp */
 enum { CORRECTED_DIVISION = 22, CORRECTED_ROOT };
-enum { INPUT_WORDS = 100, OUTPUT_WORDS }; /* constants of functions.comp */
 enum { SCENE_BYTES = 1024 };              /* more than one view, or three elements of any kind */
 
 enum status device_create(struct vulkan_context *context, bool corrected, struct device *device)
@@ -73,8 +72,7 @@ static void set_constant(struct pass_constant *constants, uint32_t *count, struc
     *count += i == *count;
 }
 
-enum status device_load(struct device *device, const struct function_test *test, size_t input_words,
-                        size_t output_words)
+enum status device_load(struct device *device, const struct function_test *test)
 {
     static uint32_t words[1 << 16];
     const size_t word_count = read_spirv(device, test->function, words, sizeof words / sizeof *words);
@@ -86,8 +84,6 @@ enum status device_load(struct device *device, const struct function_test *test,
         set_constant(constants, &count, common_constants[i]);
     set_constant(constants, &count, (struct pass_constant){CORRECTED_DIVISION, device->corrected_division});
     set_constant(constants, &count, (struct pass_constant){CORRECTED_ROOT, device->corrected_root});
-    set_constant(constants, &count, (struct pass_constant){INPUT_WORDS, (uint32_t)input_words});
-    set_constant(constants, &count, (struct pass_constant){OUTPUT_WORDS, (uint32_t)output_words});
     for (int i = 0; i < MOST_CONSTANTS && test->constants[i].id != 0; ++i)
         set_constant(constants, &count, test->constants[i]);
     struct pass_binding bindings[BINDINGS];

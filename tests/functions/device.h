@@ -27,8 +27,7 @@ enum status device_create(struct vulkan_context *context, bool corrected, struct
 void device_destroy(struct device *device);
 
 /* Builds the pass that calls the test's function, in place of the one before. */
-enum status device_load(struct device *device, const struct function_test *test, size_t input_words,
-                        size_t output_words);
+enum status device_load(struct device *device, const struct function_test *test);
 
 /* Runs the pass on `count` cases, at most BATCH; *ns is the time the device took, or that the host waited
  * where the device has no timestamps. */
