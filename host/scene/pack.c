@@ -101,12 +101,11 @@ static void pack_object(struct packing *packing, const struct scene_object *obje
     for (int i = 0; i < body_count(packed); ++i)
         if (hides(packed, i, body.is_ball, shape))
             return;
-    if (body.is_ball) {
+    surface.tags.CASTS_SHADOWS = !body.is_ball && is_transparent(&surface);
+    if (body.is_ball)
         packed->spheres[packed->sphere_count++] = (struct PackedSphere){shape, surface};
-    } else {
-        surface.tags.CASTS_SHADOWS = is_transparent(&surface);
+    else
         packed->planes[packed->plane_count++] = (struct PackedPlane){shape, surface};
-    }
 }
 
 static bool lies_behind(const struct packed_scene *packed, int plane, struct dvec3 point)
