@@ -12,7 +12,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "scene/warnings.h"
+#include "scene/scene.h"
 #include "test_folder.h"
 
 #define HEAD                                                                                                 \

@@ -35,42 +35,35 @@ void report_error(struct diagnostics *report, struct scene_place place, const ch
     report->errors[at] = (struct scene_error){place, message};
 }
 
-/* The line's first byte and its length without the line break. */
-static const char *find_line(const struct diagnostics *report, int line, size_t *length)
+static bool is_line_end(const char *at, const char *end)
 {
-    const char *at = report->text, *end = report->text + report->length;
-    for (int i = 1; i < line && at < end; at++)
-        if (*at == '\n' || (*at == '\r' && (at + 1 == end || at[1] != '\n')))
-            i++;
-    const char *stop = at;
-    while (stop < end && *stop != '\n' && *stop != '\r')
-        stop++;
-    *length = (size_t)(stop - at);
-    return at;
+    return at == end || *at == '\n' || *at == '\r';
 }
 
-static size_t next_character(const char *line, size_t length, size_t at)
+static const char *next_character(const char *at, const char *end)
 {
     do
         at++;
-    while (at < length && is_continuation(line[at]));
+    while (at < end && is_continuation(*at));
     return at;
 }
 
 static void print_line_and_caret(const struct diagnostics *report, struct scene_place place)
 {
-    size_t length, caret = 0, start = 0, stop;
-    const char *line = find_line(report, place.line, &length);
-    for (int column = 1; column < place.column && caret < length; column++)
-        caret = next_character(line, length, caret);
+    const char *start = report->text, *end = start + report->length, *caret, *stop;
+    for (int line = 1; line < place.line && start < end; start++)
+        line += *start == '\n' || (*start == '\r' && (start + 1 == end || start[1] != '\n'));
+    caret = start;
+    for (int column = 1; column < place.column && !is_line_end(caret, end); column++)
+        caret = next_character(caret, end);
     while (caret - start > SHOWN_AROUND)
-        start = next_character(line, length, start);
-    for (stop = caret; stop < length && stop - caret < SHOWN_AROUND;)
-        stop = next_character(line, length, stop);
+        start = next_character(start, end);
+    for (stop = caret; !is_line_end(stop, end) && stop - caret < SHOWN_AROUND;)
+        stop = next_character(stop, end);
 
-    fprintf(stderr, "%.*s\n", (int)(stop - start), line + start);
-    for (size_t i = start; i < caret; i = next_character(line, length, i))
-        fputc(line[i] == '\t' ? '\t' : ' ', stderr);
+    fprintf(stderr, "%.*s\n", (int)(stop - start), start);
+    for (; start < caret; start = next_character(start, end))
+        fputc(*start == '\t' ? '\t' : ' ', stderr);
     fputs("^\n", stderr);
 }
 

@@ -3,16 +3,12 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "scene/body.h"
 #include "scene/truncation.h"
 #include "scene/vector.h"
 
 static const double pi = 3.14159265358979323846;
-
-/* What float arithmetic on coordinates of size 1 cannot resolve, a few units in the last place, is taken as
- * touching, not as overlapping. */
-static const double resolution = 0x1p-21;
 
 /* Keeps the largest possible radiance, at NEAREST_LIGHT_SQUARED, far inside float. */
 static const double brightest = 1e12;
@@ -32,35 +28,6 @@ static float to_float(double x)
 static layout_vec4 to_vec4(struct dvec3 v, double w)
 {
     return (layout_vec4){to_float(v.x), to_float(v.y), to_float(v.z), to_float(w)};
-}
-
-static double plane_offset(const struct scene_object *plane, struct dvec3 *normal)
-{
-    *normal = dvec3_unit(dvec3_of(plane->plane.normal));
-    return dvec3_dot(*normal, dvec3_of(plane->plane.point));
-}
-
-static double scene_extent(const struct scene *scene)
-{
-    double extent = dvec3_largest(dvec3_of(scene->camera.position));
-    for (size_t i = 0; i < scene->object_count; ++i) {
-        const struct scene_object *object = &scene->objects[i];
-        struct dvec3 normal;
-        double reach = object->type == OBJECT_SPHERE
-                           ? dvec3_largest(dvec3_of(object->sphere.center)) + object->sphere.radius
-                           : fabs(plane_offset(object, &normal));
-        extent = fmax(extent, reach);
-    }
-    for (size_t i = 0; i < scene->light_count; ++i) {
-        const struct scene_light *light = &scene->lights[i];
-        if (light->type == LIGHT_POINT)
-            extent = fmax(extent, dvec3_largest(dvec3_of(light->point.position)));
-        for (int k = 0; k < 4 && light->type == LIGHT_QUAD; ++k)
-            extent =
-                fmax(extent, dvec3_largest(dvec3_corner(dvec3_of(light->quad.corner), dvec3_of(light->quad.u),
-                                                        dvec3_of(light->quad.v), k)));
-    }
-    return extent;
 }
 
 static void pack_view(struct packing *packing)
@@ -112,91 +79,63 @@ static bool is_transparent(const PackedSurface *surface)
     return surface->tags.SURFACE_KIND == KIND_TRANSPARENT;
 }
 
-static bool same_vec4(layout_vec4 a, layout_vec4 b)
+/* Whether the packed body i is opaque and coincides with this one, which is then never met: ties go to the
+ * first. */
+static bool hides(const struct packed_scene *packed, int i, bool is_ball, layout_vec4 shape)
 {
-    return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
+    layout_vec4 first = body_shape(packed, i);
+    return is_ball == (i < packed->sphere_count) && !is_transparent(body_surface(packed, i)) &&
+           first.x == shape.x && first.y == shape.y && first.z == shape.z && first.w == shape.w;
 }
 
-/* An object that coincides with an opaque one before it is never met: ties go to the first. */
-static void pack_sphere(struct packing *packing, const struct scene_object *object)
-{
-    struct packed_scene *packed = packing->packed;
-    const struct PackedSphere sphere = {
-        .center_radius = to_vec4(dvec3_scale(packing->scale, dvec3_of(object->sphere.center)),
-                                 packing->scale * object->sphere.radius),
-        .surface = pack_surface(packing->scene, object),
-    };
-    for (int i = 0; i < packed->sphere_count; ++i)
-        if (same_vec4(packed->spheres[i].center_radius, sphere.center_radius) &&
-            !is_transparent(&packed->spheres[i].surface))
-            return;
-    packed->spheres[packed->sphere_count++] = sphere;
-}
-
-static void pack_plane(struct packing *packing, const struct scene_object *object)
+static void pack_object(struct packing *packing, const struct scene_object *object)
 {
     struct packed_scene *packed = packing->packed;
-    struct dvec3 normal, camera = dvec3_scale(packing->scale, dvec3_of(packing->scene->camera.position));
-    double offset = packing->scale * plane_offset(object, &normal);
-    struct PackedPlane plane = {.surface = pack_surface(packing->scene, object)};
-    plane.surface.tags.CASTS_SHADOWS = is_transparent(&plane.surface);
-    bool turned = !is_transparent(&plane.surface) && dvec3_dot(normal, camera) < offset;
-    plane.normal_offset = turned ? to_vec4(dvec3_scale(-1, normal), -offset) : to_vec4(normal, offset);
-    for (int i = 0; i < packed->plane_count; ++i)
-        if (same_vec4(packed->planes[i].normal_offset, plane.normal_offset) &&
-            !is_transparent(&packed->planes[i].surface))
+    const struct body body = body_of(object);
+    PackedSurface surface = pack_surface(packing->scene, object);
+    bool turned = !body.is_ball && !is_transparent(&surface) &&
+                  body_distance(body, dvec3_of(packing->scene->camera.position)) < 0;
+    double sign = turned ? -1 : 1;
+    layout_vec4 shape = to_vec4(dvec3_scale(body.is_ball ? packing->scale : sign, body.vector),
+                                sign * packing->scale * body.number);
+    for (int i = 0; i < body_count(packed); ++i)
+        if (hides(packed, i, body.is_ball, shape))
             return;
-    packed->planes[packed->plane_count++] = plane;
+    surface.tags.CASTS_SHADOWS = !body.is_ball && is_transparent(&surface);
+    if (body.is_ball)
+        packed->spheres[packed->sphere_count++] = (struct PackedSphere){shape, surface};
+    else
+        packed->planes[packed->plane_count++] = (struct PackedPlane){shape, surface};
 }
 
-static double plane_height(const struct PackedPlane *plane, struct dvec3 point)
+static bool lies_behind(const struct packed_scene *packed, int plane, struct dvec3 point)
 {
-    return dvec3_dot(dvec3_of_vec4(plane->normal_offset), point) - (double)plane->normal_offset.w;
+    const struct body body = body_packed(packed, packed->sphere_count + plane);
+    return body_distance(body, point) < -RESOLUTION * (dvec3_length(point) + fabs(body.number));
 }
 
-static bool lies_behind(const struct PackedPlane *plane, struct dvec3 point)
-{
-    double size = dvec3_length(point) + fabs((double)plane->normal_offset.w);
-    return plane_height(plane, point) < -resolution * size;
-}
-
-static enum status pack_point_light(struct packing *packing, const struct scene_light *light)
+static void pack_point_light(struct packing *packing, const struct scene_light *light, struct dvec3 intensity)
 {
     struct packed_scene *packed = packing->packed;
     struct dvec3 position = dvec3_scale(packing->scale, dvec3_of(light->point.position));
-    struct dvec3 intensity =
-        dvec3_scale(light->power * packing->scale * packing->scale, dvec3_of(light->color));
-    if (dvec3_largest(intensity) > brightest) {
-        log_error("%s:%d:%d: point light: color times power must be at most %g times the square of the "
-                  "scene's extent",
-                  packing->scene->path, light->place.line, light->place.column, brightest);
-        return STATUS_REFUSED;
-    }
     for (int i = 0; i < packed->plane_count; ++i)
-        if (!is_transparent(&packed->planes[i].surface) && lies_behind(&packed->planes[i], position))
-            return STATUS_DONE; /* behind an opaque plane: it lights nothing that can be seen */
+        if (!is_transparent(&packed->planes[i].surface) && lies_behind(packed, i, position))
+            return; /* behind an opaque plane: it lights nothing that can be seen */
     packed->point_lights[packed->point_light_count++] = (struct PackedPointLight){
         .position = to_vec4(position, 0),
         .intensity = to_vec4(intensity, 0),
     };
-    return STATUS_DONE;
 }
 
-static enum status pack_quad_light(struct packing *packing, const struct scene_light *light)
+static void pack_quad_light(struct packing *packing, const struct scene_light *light, struct dvec3 radiance)
 {
     struct packed_scene *packed = packing->packed;
     struct dvec3 corner = dvec3_scale(packing->scale, dvec3_of(light->quad.corner));
     struct dvec3 u = dvec3_scale(packing->scale, dvec3_of(light->quad.u));
     struct dvec3 v = dvec3_scale(packing->scale, dvec3_of(light->quad.v));
-    struct dvec3 radiance = dvec3_scale(light->power, dvec3_of(light->color));
-    if (dvec3_largest(radiance) > brightest) {
-        log_error("%s:%d:%d: quad light: color times power must be at most %g", packing->scene->path,
-                  light->place.line, light->place.column, brightest);
-        return STATUS_REFUSED;
-    }
     for (int i = 0; i < packed->plane_count; ++i)
         for (int k = 0; k < 4; ++k)
-            if (lies_behind(&packed->planes[i], dvec3_corner(corner, u, v, k)))
+            if (lies_behind(packed, i, dvec3_corner(corner, u, v, k)))
                 packed->planes[i].surface.tags.CASTS_SHADOWS = 1;
     packed->quad_lights[packed->quad_light_count++] = (struct PackedQuadLight){
         .corner = to_vec4(corner, 0),
@@ -205,66 +144,48 @@ static enum status pack_quad_light(struct packing *packing, const struct scene_l
         .area_normal = to_vec4(dvec3_cross(u, v), 0),
         .radiance = to_vec4(dvec3_scale(1.0 / packed->light_samples, radiance), 0),
     };
-    return STATUS_DONE;
 }
 
-/* Whether a surface at this distance from the sphere's centre reaches into the sphere. */
-static bool reaches_into(double distance, layout_vec4 sphere)
+static enum status pack_light(struct packing *packing, const struct scene_light *light)
 {
-    double radius = (double)sphere.w;
-    return distance < radius - resolution * (dvec3_length(dvec3_of_vec4(sphere)) + radius);
+    bool point = light->type == LIGHT_POINT;
+    double power = point ? light->power * packing->scale * packing->scale : light->power;
+    struct dvec3 colored_power = dvec3_scale(power, dvec3_of(light->color));
+    if (dvec3_largest(colored_power) > brightest) {
+        log_error("%s:%d:%d: %s light: color times power must be at most %g%s", packing->scene->path,
+                  light->place.line, light->place.column, point ? "point" : "quad", brightest,
+                  point ? " times the square of the scene's extent" : "");
+        return STATUS_REFUSED;
+    }
+    (point ? pack_point_light : pack_quad_light)(packing, light, colored_power);
+    return STATUS_DONE;
 }
 
 /* Whether a ray or a shading point can lie within the sphere other than on it: the camera is in it, or it is
  * transparent and another surface reaches in. */
 static bool holds_rays(const struct packed_scene *packed, int sphere)
 {
-    const struct PackedSphere *holder = &packed->spheres[sphere];
-    struct dvec3 center = dvec3_of_vec4(holder->center_radius);
-    double radius = (double)holder->center_radius.w;
-    if (dvec3_distance(dvec3_of_vec4(packed->view.position), center) < radius)
-        return true;
-    if (!is_transparent(&holder->surface))
-        return false;
-    for (int i = 0; i < packed->plane_count; ++i)
-        if (reaches_into(fabs(plane_height(&packed->planes[i], center)), holder->center_radius))
-            return true;
-    for (int i = 0; i < packed->sphere_count; ++i) {
-        layout_vec4 other = packed->spheres[i].center_radius;
-        double apart = dvec3_distance(dvec3_of_vec4(other), center);
-        if (i != sphere && reaches_into(fabs(apart - (double)other.w), holder->center_radius))
-            return true;
-    }
-    return false;
+    const struct body holder = body_packed(packed, sphere);
+    bool holds = body_distance(holder, dvec3_of_vec4(packed->view.position)) < 0;
+    for (int i = 0; i < body_count(packed) && is_transparent(body_surface(packed, sphere)) && !holds; ++i)
+        holds = i != sphere && body_reaches_into(body_packed(packed, i), holder);
+    return holds;
 }
 
 /* Whether some point of a light may lie within the sphere; for quads, of the ball around them. */
-static bool holds_lights(const struct packed_scene *packed, const struct PackedSphere *sphere)
+static bool holds_lights(const struct packed_scene *packed, int sphere)
 {
-    struct dvec3 center = dvec3_of_vec4(sphere->center_radius);
-    double radius = (double)sphere->center_radius.w;
-    for (int i = 0; i < packed->point_light_count; ++i) {
-        struct dvec3 light = dvec3_of_vec4(packed->point_lights[i].position);
-        if (dvec3_distance(light, center) < radius)
-            return true;
-    }
+    const struct body holder = body_packed(packed, sphere);
+    bool holds = false;
+    for (int i = 0; i < packed->point_light_count; ++i)
+        holds |= body_distance(holder, dvec3_of_vec4(packed->point_lights[i].position)) < 0;
     for (int i = 0; i < packed->quad_light_count; ++i) {
         const struct PackedQuadLight *quad = &packed->quad_lights[i];
         struct dvec3 u = dvec3_of_vec4(quad->edge_u), v = dvec3_of_vec4(quad->edge_v);
         struct dvec3 middle = dvec3_add(dvec3_of_vec4(quad->corner), dvec3_scale(0.5, dvec3_add(u, v)));
-        double reach = (dvec3_length(u) + dvec3_length(v)) / 2;
-        if (dvec3_distance(middle, center) < radius + reach)
-            return true;
+        holds |= body_distance(holder, middle) < (dvec3_length(u) + dvec3_length(v)) / 2;
     }
-    return false;
-}
-
-/* Leaves the last matte surface's A and B, for scenes in which all are the same. */
-static void share_roughness(struct packed_scene *packed, const PackedSurface *surface)
-{
-    if (surface->tags.SURFACE_KIND == KIND_MATTE)
-        packed->view.matte =
-            (layout_vec4){surface->parameters.OREN_NAYAR_A, surface->more_parameters.OREN_NAYAR_B, 0, 0};
+    return holds;
 }
 
 static enum status pack_contents(struct packing *packing)
@@ -272,34 +193,42 @@ static enum status pack_contents(struct packing *packing)
     const struct scene *scene = packing->scene;
     struct packed_scene *packed = packing->packed;
     pack_view(packing);
-    for (size_t i = 0; i < scene->object_count; ++i) {
-        if (scene->objects[i].type == OBJECT_SPHERE)
-            pack_sphere(packing, &scene->objects[i]);
-        else
-            pack_plane(packing, &scene->objects[i]);
-    }
-    for (int i = 0; i < packed->sphere_count; ++i)
-        share_roughness(packed, &packed->spheres[i].surface);
-    for (int i = 0; i < packed->plane_count; ++i)
-        share_roughness(packed, &packed->planes[i].surface);
-    for (size_t i = 0; i < scene->light_count; ++i) {
-        const struct scene_light *light = &scene->lights[i];
-        enum status status =
-            light->type == LIGHT_POINT ? pack_point_light(packing, light) : pack_quad_light(packing, light);
-        if (status != STATUS_DONE)
-            return status;
-    }
+    for (size_t i = 0; i < scene->object_count; ++i)
+        pack_object(packing, &scene->objects[i]);
+    for (size_t i = 0; i < scene->light_count; ++i)
+        if (pack_light(packing, &scene->lights[i]) != STATUS_DONE)
+            return STATUS_REFUSED;
     for (int i = 0; i < packed->sphere_count; ++i) {
         packed->spheres[i].surface.tags.HOLDS_RAYS = holds_rays(packed, i);
-        packed->spheres[i].surface.tags.HOLDS_LIGHTS = holds_lights(packed, &packed->spheres[i]);
+        packed->spheres[i].surface.tags.HOLDS_LIGHTS = holds_lights(packed, i);
+    }
+    for (int i = 0; i < body_count(packed); ++i) { /* of the last; used where all are the same */
+        const PackedSurface *surface = body_surface(packed, i);
+        if (surface->tags.SURFACE_KIND == KIND_MATTE)
+            packed->view.matte = (layout_vec4){.SHARED_A = surface->parameters.OREN_NAYAR_A,
+                                               .SHARED_B = surface->more_parameters.OREN_NAYAR_B};
     }
     return STATUS_DONE;
 }
 
 double pack_scale(const struct scene *scene)
 {
+    double extent = dvec3_largest(dvec3_of(scene->camera.position));
+    for (size_t i = 0; i < scene->object_count; ++i) {
+        const struct body body = body_of(&scene->objects[i]);
+        extent = fmax(extent, body.is_ball ? dvec3_largest(body.vector) + body.number : fabs(body.number));
+    }
+    for (size_t i = 0; i < scene->light_count; ++i) {
+        const struct scene_light *light = &scene->lights[i];
+        if (light->type == LIGHT_POINT)
+            extent = fmax(extent, dvec3_largest(dvec3_of(light->point.position)));
+        for (int k = 0; k < 4 && light->type == LIGHT_QUAD; ++k)
+            extent =
+                fmax(extent, dvec3_largest(dvec3_corner(dvec3_of(light->quad.corner), dvec3_of(light->quad.u),
+                                                        dvec3_of(light->quad.v), k)));
+    }
     int exponent;
-    frexp(scene_extent(scene), &exponent);
+    frexp(extent, &exponent);
     return ldexp(1, -exponent);
 }
 

@@ -90,6 +90,10 @@ enum status scene_read(const char *path, struct scene *scene);
 /* The same for a scene file's content in memory; path is for the messages and for scene->path. */
 enum status scene_read_text(const char *path, const char *text, size_t length, struct scene *scene);
 
+/* Warns of what a scene may hold and is likely a mistake: transparent bodies whose surfaces cross (the first
+ * pair, and how many more there are), and the first quad light that shines away from all matte surfaces. */
+void scene_warn(const struct scene *scene);
+
 /* Frees what the scene owns and empties it. An empty scene is fine. */
 void scene_destroy(struct scene *scene);
 

@@ -24,10 +24,7 @@ void schema_refuse(struct mapping *mapping, struct fy_node *node, const char *fo
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    struct scene_place place = {1, 1};
-    if (mapping->report->count < REPORT_MAX_ERRORS) /* others are only counted */
-        place = yaml_place(mapping->report, node);
-    report_error(mapping->report, place, "%s%s", mapping->label, message);
+    report_error(mapping->report, yaml_place(mapping->report, node), "%s%s", mapping->label, message);
     mapping->good = false;
 }
 
@@ -51,13 +48,15 @@ void schema_expect(struct mapping *mapping, const struct yaml_value *value, cons
     schema_refuse(mapping, value->written, "%s must be %s, is %s", key, expected, describe(value, quote));
 }
 
-/* Writes names as "a, b and c", cut where there is no room. */
-static void list_names(char *out, size_t size, const char *const *names, size_t count, const char *last_word)
+enum { LIST_SIZE = 256 };
+
+/* Writes names, which end with NULL, as "a, b and c", cut where there is no room. */
+static void list_names(const char *const names[], const char *last_word, char out[LIST_SIZE])
 {
     size_t used = 0;
-    for (size_t i = 0; i < count && used < size; i++) {
-        const char *separator = i == 0 ? "" : i + 1 < count ? ", " : last_word;
-        used += (size_t)snprintf(out + used, size - used, "%s%s", separator, names[i]);
+    for (size_t i = 0; names[i] && used < LIST_SIZE; i++) {
+        const char *separator = i == 0 ? "" : names[i + 1] ? ", " : last_word;
+        used += (size_t)snprintf(out + used, LIST_SIZE - used, "%s%s", separator, names[i]);
     }
 }
 
@@ -70,9 +69,9 @@ struct yaml_value schema_find(const struct mapping *mapping, const char *key)
 {
     struct fy_node_pair *pair;
     for (void *at = NULL; (pair = fy_node_mapping_iterate(mapping->value.node, &at));) {
-        const struct yaml_value found = yaml_read(mapping->report, fy_node_pair_key(pair));
+        const struct yaml_value found = yaml_read(mapping->report, fy_node_pair_key(pair), NULL);
         if (is_text(&found, key))
-            return yaml_read(mapping->report, fy_node_pair_value(pair));
+            return yaml_read(mapping->report, fy_node_pair_value(pair), found.written);
     }
     return (struct yaml_value){.written = NULL};
 }
@@ -81,7 +80,7 @@ static void find_type_and_label(struct mapping *mapping)
 {
     const struct schema *schema = mapping->schema;
     const struct yaml_value given = schema_find(mapping, "type"), name = schema_find(mapping, "name");
-    for (int i = 0; schema->types && schema->types[i]; i++)
+    for (int i = 0; schema->types[i]; i++)
         if (is_text(&given, schema->types[i]))
             mapping->type = i;
     const char *type = mapping->type < 0 ? "" : schema->types[mapping->type];
@@ -96,33 +95,29 @@ static void find_type_and_label(struct mapping *mapping)
 
 static void refuse_key(struct mapping *mapping, const struct yaml_value *key, const char *problem)
 {
-    const char *names[SCHEMA_MAX_FIELDS];
+    const char *names[MAX_FIELDS] = {NULL};
     size_t count = 0;
     for (const struct field *field = mapping->schema->fields; field->name; field++)
         if (takes(field, mapping->type))
             names[count++] = field->name;
-    char list[256] = "", quote[REPORT_QUOTE_SIZE];
-    list_names(list, sizeof(list), names, count, " and ");
+    char list[LIST_SIZE], quote[REPORT_QUOTE_SIZE];
+    list_names(names, " and ", list);
     schema_refuse(mapping, key->written, "%s %s; the keys here are %s", problem, describe(key, quote), list);
 }
 
-void read_type(struct mapping *mapping, const struct field *field, const struct yaml_value *value,
-               void *member)
+void read_type(struct mapping *mapping, const struct field *field, const struct yaml_value *value, void *to)
 {
-    (void)member;
-    char list[128] = "";
-    size_t count = 0;
-    while (mapping->schema->types[count])
-        count++;
-    list_names(list, sizeof(list), mapping->schema->types, count, " or ");
+    char list[LIST_SIZE];
+    list_names(mapping->schema->types, " or ", list);
     if (mapping->type < 0)
         schema_expect(mapping, value, field->name, list);
+    else
+        *(unsigned *)to = (unsigned)mapping->type;
 }
 
-void read_name(struct mapping *mapping, const struct field *field, const struct yaml_value *value,
-               void *member)
+void read_name(struct mapping *mapping, const struct field *field, const struct yaml_value *value, void *to)
 {
-    char **name = member;
+    char **name = to;
     bool printable = value->length > 0;
     for (size_t i = 0; i < value->length && i < YAML_TEXT_SIZE - 1 && printable; i++)
         printable = (unsigned char)value->text[i] >= 0x20 && value->text[i] != 0x7F;
@@ -134,55 +129,49 @@ void read_name(struct mapping *mapping, const struct field *field, const struct 
         mapping->report->no_memory = true;
 }
 
-void read_number(struct mapping *mapping, const struct field *field, const struct yaml_value *value,
-                 void *member)
+void read_number(struct mapping *mapping, const struct field *field, const struct yaml_value *value, void *to)
 {
     double number;
+    const struct bounds *bounds = field->bounds;
     const char *expected = NULL;
     if (!is_number(value, &number))
         expected = field->read == read_vector ? "a finite decimal number in each component"
                                               : "a finite decimal number";
-    for (const struct bound *bound = field->bounds; bound && bound->rule && !expected; bound++)
-        if (bound->open ? number <= bound->least || number >= bound->most
-                        : number < bound->least || number > bound->most)
-            expected = bound->rule;
+    else if (bounds && bounds->positive && number <= 0)
+        expected = "> 0";
+    else if (bounds && (number < bounds->least || number > bounds->most))
+        expected = bounds->rule;
     if (expected)
         schema_expect(mapping, value, field->name, expected);
     else
-        *(double *)member = number;
+        *(double *)to = number;
 }
 
-void read_vector(struct mapping *mapping, const struct field *field, const struct yaml_value *value,
-                 void *member)
+void read_vector(struct mapping *mapping, const struct field *field, const struct yaml_value *value, void *to)
 {
-    double *component = member;
+    double *component = to;
     int count = fy_node_sequence_item_count(value->node);
-    if (value->type != FYNT_SEQUENCE) {
+    if (value->type != FYNT_SEQUENCE)
         schema_expect(mapping, value, field->name, "a list of 3 numbers");
-        return;
-    }
-    if (count != 3) {
+    else if (count != 3)
         schema_refuse(mapping, value->written, "%s must be a list of 3 numbers, is a list of %d", field->name,
                       count);
-        return;
-    }
-    struct fy_node *item;
-    for (void *at = NULL; (item = fy_node_sequence_iterate(value->node, &at));) {
-        struct yaml_value number = yaml_read(mapping->report, item);
+    void *at = NULL;
+    for (struct fy_node *item; count == 3 && (item = fy_node_sequence_iterate(value->node, &at));) {
+        const struct yaml_value number = yaml_read(mapping->report, item, value->written);
         read_number(mapping, field, &number, component++);
     }
 }
 
-void read_count(struct mapping *mapping, const struct field *field, const struct yaml_value *value,
-                void *member)
+void read_count(struct mapping *mapping, const struct field *field, const struct yaml_value *value, void *to)
 {
     unsigned long count;
-    const struct bound *bound = field->bounds;
+    const struct bounds *bounds = field->bounds;
     char expected[64];
-    snprintf(expected, sizeof expected, "a whole number within %.0f..%.0f", bound->least, bound->most);
+    snprintf(expected, sizeof expected, "a whole number within %.0f..%.0f", bounds->least, bounds->most);
     if (value->plain && parse_unsigned(value->text, value->length, UINT_MAX, &count) &&
-        (double)count >= bound->least && (double)count <= bound->most)
-        *(unsigned *)member = (unsigned)count;
+        (double)count >= bounds->least && (double)count <= bounds->most)
+        *(unsigned *)to = (unsigned)count;
     else
         schema_expect(mapping, value, field->name, expected);
 }
@@ -191,47 +180,42 @@ void read_count(struct mapping *mapping, const struct field *field, const struct
 static void read_pair(struct mapping *mapping, struct fy_node_pair *pair, void *item,
                       struct fy_node *first_keys[])
 {
-    const struct field *fields = mapping->schema->fields;
-    const struct yaml_value key = yaml_read(mapping->report, fy_node_pair_key(pair));
-    size_t i = 0;
-    while (fields[i].name && !is_text(&key, fields[i].name))
-        i++;
-    if (!fields[i].name) {
+    const struct yaml_value key = yaml_read(mapping->report, fy_node_pair_key(pair), mapping->value.written);
+    const struct field *field = mapping->schema->fields;
+    while (field->name && !is_text(&key, field->name))
+        field++;
+    struct fy_node **first = &first_keys[field - mapping->schema->fields];
+    if (!field->name) {
         refuse_key(mapping, &key, key.type == FYNT_SCALAR ? "unknown key" : "a key must be a word, is");
-        return;
-    }
-    if (first_keys[i]) {
-        schema_refuse(mapping, key.written, "key \"%s\" is given twice, first in line %d", fields[i].name,
-                      yaml_place(mapping->report, first_keys[i]).line);
-        return;
-    }
-    first_keys[i] = key.written;
-    if (!takes(&fields[i], mapping->type)) {
-        refuse_key(mapping, &key, "takes no key");
-    } else if (fields[i].read) {
-        const struct yaml_value value = yaml_read(mapping->report, fy_node_pair_value(pair));
-        fields[i].read(mapping, &fields[i], &value, (char *)item + fields[i].offset);
+    } else if (*first) {
+        schema_refuse(mapping, key.written, "key \"%s\" is given twice, first in line %d", field->name,
+                      yaml_place(mapping->report, *first).line);
+    } else {
+        *first = key.written;
+        const struct yaml_value value = yaml_read(mapping->report, fy_node_pair_value(pair), key.written);
+        if (!takes(field, mapping->type))
+            refuse_key(mapping, &key, "takes no key");
+        else if (field->read)
+            field->read(mapping, field, &value, (char *)item + field->offset);
     }
 }
 
-void schema_read(struct diagnostics *report, const struct schema *schema, struct fy_node *node, void *item,
-                 struct mapping *mapping)
+void schema_read(struct diagnostics *report, const struct schema *schema, const struct yaml_value *value,
+                 void *item, struct mapping *mapping)
 {
-    *mapping = (struct mapping){report, schema, yaml_read(report, node), .type = -1, .good = true};
-    if (mapping->value.type != FYNT_MAPPING) {
-        schema_expect(mapping, &mapping->value, schema->label[0] ? schema->label : "a scene file",
+    *mapping = (struct mapping){report, schema, *value, .type = -1, .good = true};
+    if (value->type != FYNT_MAPPING) {
+        schema_expect(mapping, value, schema->label[0] ? schema->label : "a scene file",
                       "a mapping (\"key: value\")");
         return;
     }
     find_type_and_label(mapping);
-    struct fy_node *first_keys[SCHEMA_MAX_FIELDS] = {NULL};
+    struct fy_node *first_keys[MAX_FIELDS] = {NULL};
     struct fy_node_pair *pair;
-    for (void *at = NULL; (pair = fy_node_mapping_iterate(mapping->value.node, &at));)
+    for (void *at = NULL; (pair = fy_node_mapping_iterate(value->node, &at));)
         read_pair(mapping, pair, item, first_keys);
-    for (size_t i = 0; schema->fields[i].name; i++) {
-        const struct field *field = &schema->fields[i];
-        if (field->required && !first_keys[i] && (field->types == 0 || mapping->type >= 0) &&
-            takes(field, mapping->type))
-            schema_refuse(mapping, node, "missing key \"%s\"", field->name);
-    }
+    for (const struct field *field = schema->fields; field->name; field++)
+        if (field->required && !first_keys[field - schema->fields] && takes(field, mapping->type) &&
+            (field->types == 0 || mapping->type >= 0))
+            schema_refuse(mapping, value->written, "missing key \"%s\"", field->name);
 }

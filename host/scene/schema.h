@@ -5,40 +5,40 @@
 
 /* Which keys a mapping of a scene file takes, and reading such a mapping into a struct. */
 
-enum { SCHEMA_MAX_FIELDS = 16 };
+enum { MAX_FIELDS = 16 }; /* of a schema; the last has no name */
 
-/* A bound on a number, with the words for "must be ...". Lists of bounds end with one without a rule. */
-struct bound {
+/* Bounds of a number, both inside, with the words for "must be ...". */
+struct bounds {
     double least, most;
-    bool open; /* least and most themselves are outside */
     const char *rule;
+    bool positive; /* 0 and less are refused with "> 0" */
 };
 
 struct mapping;
 struct field;
 typedef void field_reader(struct mapping *mapping, const struct field *field, const struct yaml_value *value,
-                          void *member);
+                          void *to);
 
 struct field {
     const char *name;
     field_reader *read; /* NULL: only found */
     bool required;
-    unsigned types; /* bit set of the types that take it; 0: all */
-    size_t offset;  /* in the struct read into */
-    const struct bound *bounds;
+    unsigned types;              /* bit set of the types that take it; 0: all */
+    size_t offset;               /* in the struct read into */
+    const struct bounds *bounds; /* NULL: none */
 };
 
-field_reader read_type;   /* one of schema.types; goes to mapping.type */
+field_reader read_type;   /* one of schema.types, to unsigned or enum */
 field_reader read_name;   /* to char *, allocated: not empty, no control characters */
 field_reader read_number; /* to double */
 field_reader read_vector; /* to double[3] */
 field_reader read_count;  /* to unsigned */
 
 struct schema {
-    const char *label;          /* "material", for messages; "" for the whole file */
-    bool type_alone;            /* an object of type sphere is called sphere, not sphere object */
-    const char *const *types;   /* ends with NULL; NULL where there is no key "type" */
-    const struct field *fields; /* ends with a nameless one */
+    const char *label;    /* "material", for messages; "" for the whole file */
+    bool type_alone;      /* an object of type sphere is called sphere, not sphere object */
+    const char *types[4]; /* what the key "type" can be; ends with NULL, as the fields do */
+    const struct field *fields;
 };
 
 /* A mapping that is being read. */
@@ -51,10 +51,10 @@ struct mapping {
     bool good;                         /* nothing of it was refused */
 };
 
-/* Reads node by the schema into the struct at item, whose members keep their values where keys are missing
- * or wrong. Reports unknown, doubled, misplaced and missing keys and wrong values. */
-void schema_read(struct diagnostics *report, const struct schema *schema, struct fy_node *node, void *item,
-                 struct mapping *mapping);
+/* Reads the value by the schema into the struct at item, whose members keep their values where keys are
+ * missing or wrong. Reports unknown, doubled, misplaced and missing keys and wrong values. */
+void schema_read(struct diagnostics *report, const struct schema *schema, const struct yaml_value *value,
+                 void *item, struct mapping *mapping);
 
 /* The value that the key is given first; written is NULL where it is not given. */
 struct yaml_value schema_find(const struct mapping *mapping, const char *key);

@@ -1,9 +1,8 @@
 #include "scene/truncation.h"
 
 #include <math.h>
-#include <stdbool.h>
 
-#include "scene/vector.h"
+#include "scene/body.h"
 
 /* More than a light of this scene can give, should no better bound be found. */
 static const float unbounded = 0x1p100f;
@@ -12,7 +11,7 @@ static const float unbounded = 0x1p100f;
 static const float darkest = 0x1p-30f;
 
 /* Where float puts a point of a surface, off by less than this, in scene units. */
-static const double resolution = 0x1p-20;
+static const double accuracy = 0x1p-20;
 
 /* Stands for all relative rounding errors on the way of a ray: 6 bits more than a bounce loses, as products
  * of weights lose that much in 1000 bounces. */
@@ -22,20 +21,6 @@ static struct dvec3 quad_corner(const struct PackedQuadLight *quad, int number)
 {
     return dvec3_corner(dvec3_of_vec4(quad->corner), dvec3_of_vec4(quad->edge_u), dvec3_of_vec4(quad->edge_v),
                         number);
-}
-
-/* A sphere (center, radius) or a plane (normal, offset). */
-struct body {
-    bool is_sphere;
-    struct dvec3 vector;
-    double number;
-};
-
-/* Signed: positive outside the sphere and on the side of the plane's normal. */
-static double distance_from(const struct body *body, struct dvec3 point)
-{
-    return body->is_sphere ? dvec3_distance(point, body->vector) - body->number
-                           : dvec3_dot(body->vector, point) - body->number;
 }
 
 static double distance_from_segment(struct dvec3 from, struct dvec3 edge, struct dvec3 point)
@@ -54,44 +39,46 @@ static double distance_from_quad(const struct PackedQuadLight *quad, struct dvec
     double at_v = dvec3_dot(dvec3_cross(u, way), normal) / area_squared;
     if (at_u >= 0 && at_u <= 1 && at_v >= 0 && at_v <= 1)
         return fabs(dvec3_dot(way, normal)) / sqrt(area_squared);
-    double to_u_edges = fmin(distance_from_segment(quad_corner(quad, 0), u, point),
-                             distance_from_segment(quad_corner(quad, 2), u, point));
-    double to_v_edges = fmin(distance_from_segment(quad_corner(quad, 0), v, point),
-                             distance_from_segment(quad_corner(quad, 1), v, point));
-    return fmin(to_u_edges, to_v_edges);
+    double nearest = INFINITY;
+    for (int i = 0; i < 2; ++i) {
+        nearest = fmin(nearest, distance_from_segment(quad_corner(quad, 2 * i), u, point));
+        nearest = fmin(nearest, distance_from_segment(quad_corner(quad, i), v, point));
+    }
+    return nearest;
 }
 
 /* Between the body's surface and the quad; 0 where they meet. */
-static double quad_distance(const struct body *body, const struct PackedQuadLight *quad)
+static double quad_distance(struct body body, const struct PackedQuadLight *quad)
 {
     double nearest = INFINITY, farthest = -INFINITY;
     for (int i = 0; i < 4; ++i) {
-        double distance = distance_from(body, quad_corner(quad, i));
+        double distance = body_distance(body, quad_corner(quad, i));
         nearest = fmin(nearest, distance);
         farthest = fmax(farthest, distance);
     }
-    if (body->is_sphere) /* all corners in it: the quad is; but corners outside tell little */
-        nearest = distance_from_quad(quad, body->vector) - body->number;
+    if (body.is_ball) /* all corners in it: the quad is; but corners outside tell little */
+        nearest = distance_from_quad(quad, body.vector) - body.number;
     return fmax(0, fmax(nearest, -farthest));
 }
 
 static double inverse_square(double distance)
 {
-    double least = distance * (1 - slack) - resolution;
+    double least = distance * (1 - slack) - accuracy;
     return least > 0 ? 1 / (least * least) : INFINITY;
 }
 
 /* The body's largest radiance. Oren-Nayar's A cos_in + B cos_in s / max(cos_in, cos_out), where s is at most
  * sin_in, is at most A cos_in + B sin_in. */
-static double matte_radiance(const struct packed_scene *scene, const PackedSurface *surface,
-                             const struct body *body)
+static double matte_radiance(const struct packed_scene *scene, int index)
 {
+    const PackedSurface *surface = body_surface(scene, index);
+    const struct body body = body_packed(scene, index);
     if (surface->tags.SURFACE_KIND != KIND_MATTE)
         return 0;
     struct dvec3 irradiance = {0, 0, 0};
     for (int i = 0; i < scene->point_light_count; ++i) {
         const struct PackedPointLight *light = &scene->point_lights[i];
-        double falloff = inverse_square(fabs(distance_from(body, dvec3_of_vec4(light->position))));
+        double falloff = inverse_square(fabs(body_distance(body, dvec3_of_vec4(light->position))));
         irradiance = dvec3_add(irradiance, dvec3_scale(falloff, dvec3_of_vec4(light->intensity)));
     }
     for (int i = 0; i < scene->quad_light_count; ++i) {
@@ -113,16 +100,8 @@ static double matte_radiance(const struct packed_scene *scene, const PackedSurfa
 static double largest_radiance(const struct packed_scene *scene)
 {
     double radiance = dvec3_largest(dvec3_of_vec4(scene->view.background));
-    for (int i = 0; i < scene->sphere_count; ++i) {
-        layout_vec4 sphere = scene->spheres[i].center_radius;
-        const struct body body = {true, dvec3_of_vec4(sphere), (double)sphere.w};
-        radiance = fmax(radiance, matte_radiance(scene, &scene->spheres[i].surface, &body));
-    }
-    for (int i = 0; i < scene->plane_count; ++i) {
-        layout_vec4 plane = scene->planes[i].normal_offset;
-        const struct body body = {false, dvec3_of_vec4(plane), (double)plane.w};
-        radiance = fmax(radiance, matte_radiance(scene, &scene->planes[i].surface, &body));
-    }
+    for (int i = 0; i < body_count(scene); ++i)
+        radiance = fmax(radiance, matte_radiance(scene, i));
     return radiance * (1 + slack);
 }
 
@@ -140,27 +119,25 @@ static double rounding(const struct packed_scene *scene, double radiance)
 static layout_vec4 between_mirrors(const struct packed_scene *scene)
 {
     const layout_vec4 none = {0, 0, 0, 0};
-    layout_vec4 normal = none;
-    bool faced = false;
+    int mirror = 0;
+    while (mirror < scene->plane_count && scene->planes[mirror].surface.tags.SURFACE_KIND != KIND_MIRROR)
+        ++mirror;
+    if (mirror == scene->plane_count)
+        return none;
+    layout_vec4 normal = scene->planes[mirror].normal_offset;
+    normal.w = 0;
     for (int i = 0; i < scene->plane_count; ++i) {
         layout_vec4 other = scene->planes[i].normal_offset;
-        if (scene->planes[i].surface.tags.SURFACE_KIND != KIND_MIRROR)
-            continue;
-        if (normal.w == 0)
-            normal = (layout_vec4){other.x, other.y, other.z, 1};
+        int kind = scene->planes[i].surface.tags.SURFACE_KIND;
+        double cosine = dvec3_dot(dvec3_of_vec4(normal), dvec3_of_vec4(other));
         bool parallel = other.x == normal.x && other.y == normal.y && other.z == normal.z;
         bool faces = other.x == -normal.x && other.y == -normal.y && other.z == -normal.z;
-        if (!parallel && !faces)
+        if (kind == KIND_MIRROR ? !parallel && !faces : kind == KIND_TRANSPARENT || fabs(cosine) > accuracy)
             return none;
-        faced |= faces;
+        if (kind == KIND_MIRROR && faces)
+            normal.w = 1;
     }
-    for (int i = 0; i < scene->plane_count; ++i) {
-        int kind = scene->planes[i].surface.tags.SURFACE_KIND;
-        double cosine = dvec3_dot(dvec3_of_vec4(normal), dvec3_of_vec4(scene->planes[i].normal_offset));
-        if (kind == KIND_TRANSPARENT || (kind == KIND_MATTE && fabs(cosine) > resolution))
-            return none;
-    }
-    return faced ? normal : none;
+    return normal.w > 0 ? normal : none;
 }
 
 void truncation_pack(struct packed_scene *scene, double max_error)

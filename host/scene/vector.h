@@ -51,18 +51,10 @@ static inline double dvec3_largest(struct dvec3 v)
     return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
 }
 
-/* v times the power of two that brings it near 1, where squares neither over- nor underflow. */
-static inline struct dvec3 dvec3_near_one(struct dvec3 v, int *exponent)
-{
-    frexp(dvec3_largest(v), exponent);
-    return (struct dvec3){ldexp(v.x, -*exponent), ldexp(v.y, -*exponent), ldexp(v.z, -*exponent)};
-}
-
+/* Of lengths whose squares neither over- nor underflow. */
 static inline double dvec3_length(struct dvec3 v)
 {
-    int exponent;
-    struct dvec3 near_one = dvec3_near_one(v, &exponent);
-    return ldexp(sqrt(dvec3_dot(near_one, near_one)), exponent);
+    return sqrt(dvec3_dot(v, v));
 }
 
 static inline double dvec3_distance(struct dvec3 a, struct dvec3 b)
@@ -70,11 +62,13 @@ static inline double dvec3_distance(struct dvec3 a, struct dvec3 b)
     return dvec3_length(dvec3_subtract(a, b));
 }
 
+/* Of any v but 0. The power of two that brings v near 1 keeps its squares from over- and underflowing. */
 static inline struct dvec3 dvec3_unit(struct dvec3 v)
 {
     int exponent;
-    struct dvec3 near_one = dvec3_near_one(v, &exponent);
-    return dvec3_scale(1 / sqrt(dvec3_dot(near_one, near_one)), near_one);
+    frexp(dvec3_largest(v), &exponent);
+    struct dvec3 near_one = {ldexp(v.x, -exponent), ldexp(v.y, -exponent), ldexp(v.z, -exponent)};
+    return dvec3_scale(1 / dvec3_length(near_one), near_one);
 }
 
 /* One of the four corners of the parallelogram with edges u and v at corner 0; they are numbered row by row.

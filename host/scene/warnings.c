@@ -1,147 +1,99 @@
-#include "scene/warnings.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "scene/vector.h"
+#include "scene/body.h"
 
-/* What float arithmetic on coordinates of size 1 cannot resolve, a few units in the last place, is taken as
- * touching, not as crossing. */
-static const double resolution = 0x1p-21;
-
-/* Signed: positive outside a sphere and on the side of a plane's normal. */
-static double distance_from(const struct scene_object *surface, struct dvec3 point)
+/* Whether the surfaces of two bodies cross, or coincide with both bodies on the same side. */
+static bool overlap(const struct scene_object *first, const struct scene_object *second)
 {
-    if (surface->type == OBJECT_SPHERE)
-        return dvec3_distance(point, dvec3_of(surface->sphere.center)) - surface->sphere.radius;
-    return dvec3_dot(dvec3_unit(dvec3_of(surface->plane.normal)),
-                     dvec3_subtract(point, dvec3_of(surface->plane.point)));
+    struct body a = body_of(first), b = body_of(second);
+    if (!a.is_ball && !b.is_ball)
+        return dvec3_length(dvec3_cross(a.vector, b.vector)) > RESOLUTION ||
+               (dvec3_dot(a.vector, b.vector) > 0 &&
+                fabs(a.number - b.number) <= RESOLUTION * fabs(b.number));
+    bool a_is_smaller = a.is_ball && (!b.is_ball || a.number <= b.number);
+    struct body ball = a_is_smaller ? a : b, other = a_is_smaller ? b : a;
+    double touching = RESOLUTION * (dvec3_length(ball.vector) + ball.number);
+    bool coincide = other.is_ball && other.number - ball.number <= touching &&
+                    dvec3_distance(other.vector, ball.vector) <= touching;
+    return coincide || body_reaches_into(other, ball);
 }
 
-static bool planes_overlap(const struct scene_object *a, const struct scene_object *b)
+static double lower_end(const struct scene_object *body)
 {
-    struct dvec3 normal = dvec3_unit(dvec3_of(a->plane.normal)),
-                 other = dvec3_unit(dvec3_of(b->plane.normal));
-    struct dvec3 point = dvec3_of(b->plane.point);
-    return dvec3_length(dvec3_cross(normal, other)) > resolution ||
-           (dvec3_dot(normal, other) > 0 &&
-            fabs(distance_from(a, point)) <= resolution * dvec3_length(point));
-}
-
-/* Whether the surface of a ball crosses the other surface, that of a larger ball or of a plane. */
-static bool ball_overlaps(const struct scene_object *ball, const struct scene_object *other)
-{
-    struct dvec3 center = dvec3_of(ball->sphere.center);
-    double radius = ball->sphere.radius, touching = resolution * (dvec3_length(center) + radius);
-    double distance = distance_from(other, center);
-    bool coincide = other->type == OBJECT_SPHERE && other->sphere.radius - radius <= touching &&
-                    fabs(distance + radius) <= touching;
-    return coincide || fabs(distance) < radius - touching;
-}
-
-/* Whether the surfaces of two bodies cross, or coincide with both bodies on the same side. What lies behind a
- * plane is its body. */
-static bool overlap(const struct scene_object *a, const struct scene_object *b)
-{
-    if (a->type == OBJECT_PLANE && b->type == OBJECT_PLANE)
-        return planes_overlap(a, b);
-    bool a_is_ball =
-        b->type == OBJECT_PLANE || (a->type == OBJECT_SPHERE && a->sphere.radius <= b->sphere.radius);
-    return a_is_ball ? ball_overlaps(a, b) : ball_overlaps(b, a);
-}
-
-static double lower_end(const struct scene_object *body, int axis)
-{
-    return body->type == OBJECT_SPHERE ? body->sphere.center[axis] - body->sphere.radius : -INFINITY;
-}
-
-static double upper_end(const struct scene_object *body, int axis)
-{
-    return body->type == OBJECT_SPHERE ? body->sphere.center[axis] + body->sphere.radius : INFINITY;
-}
-
-static bool apart(const struct scene_object *a, const struct scene_object *b, int axis)
-{
-    return lower_end(a, axis) > upper_end(b, axis) || lower_end(b, axis) > upper_end(a, axis);
+    return body->type == OBJECT_SPHERE ? body->sphere.center[0] - body->sphere.radius : -INFINITY;
 }
 
 static int compare_lower_ends(const void *a, const void *b)
 {
-    double first = lower_end(*(const struct scene_object *const *)a, 0);
-    double second = lower_end(*(const struct scene_object *const *)b, 0);
+    double first = lower_end(*(const struct scene_object *const *)a);
+    double second = lower_end(*(const struct scene_object *const *)b);
     return (first > second) - (first < second);
 }
 
-/* The pairs of bodies that overlap. In the first one, the second body stands first in the file. */
-struct overlaps {
-    size_t count;
-    const struct scene_object *a, *b;
-};
-
-static void count_overlap(struct overlaps *overlaps, const struct scene_object *a,
-                          const struct scene_object *b)
+static bool apart(const struct scene_object *a, const struct scene_object *b, int axis)
 {
-    const struct scene_object *earlier = a < b ? a : b, *later = a < b ? b : a;
-    if (overlaps->count++ == 0 || later < overlaps->b || (later == overlaps->b && earlier < overlaps->a)) {
-        overlaps->a = earlier;
-        overlaps->b = later;
-    }
+    return a->type == OBJECT_SPHERE && b->type == OBJECT_SPHERE &&
+           fabs(a->sphere.center[axis] - b->sphere.center[axis]) > a->sphere.radius + b->sphere.radius;
 }
 
-/* Sweeps along x: only bodies are compared that have some x in common. */
-static bool find_overlaps(const struct scene *scene, struct overlaps *overlaps)
+/* Sweeps along x: only bodies are compared that have some x in common. Of the first pair in the file, *later
+ * is the one that stands last. */
+static size_t count_overlaps(const struct scene *scene, const struct scene_object **bodies,
+                             const struct scene_object **earlier, const struct scene_object **later)
 {
-    const struct scene_object **bodies = calloc(scene->object_count + 1, sizeof *bodies);
-    size_t count = 0;
-    if (!bodies)
-        return false;
+    size_t count = 0, overlaps = 0;
     for (size_t i = 0; i < scene->object_count; ++i)
         if (scene->materials[scene->objects[i].material].type == MATERIAL_TRANSPARENT)
             bodies[count++] = &scene->objects[i];
     qsort(bodies, count, sizeof *bodies, compare_lower_ends);
     for (size_t i = 0; i < count; ++i)
-        for (size_t k = i + 1; k < count && !apart(bodies[i], bodies[k], 0); ++k)
-            if (!apart(bodies[i], bodies[k], 1) && !apart(bodies[i], bodies[k], 2) &&
-                overlap(bodies[i], bodies[k]))
-                count_overlap(overlaps, bodies[i], bodies[k]);
-    free(bodies);
-    return true;
+        for (size_t k = i + 1; k < count && !apart(bodies[i], bodies[k], 0); ++k) {
+            if (apart(bodies[i], bodies[k], 1) || apart(bodies[i], bodies[k], 2) ||
+                !overlap(bodies[i], bodies[k]))
+                continue;
+            bool in_order = bodies[i] < bodies[k];
+            const struct scene_object *a = bodies[in_order ? i : k], *b = bodies[in_order ? k : i];
+            if (overlaps++ == 0 || b < *later || (b == *later && a < *earlier)) {
+                *earlier = a;
+                *later = b;
+            }
+        }
+    return overlaps;
 }
 
 static void warn_of_overlaps(const struct scene *scene)
 {
-    struct overlaps found = {0};
+    const struct scene_object **bodies = calloc(scene->object_count + 1, sizeof *bodies);
+    const struct scene_object *a = NULL, *b = NULL;
     char others[64] = "";
-    if (!find_overlaps(scene, &found))
+    if (!bodies)
         log_warning("%s: no memory to look for transparent bodies that overlap", scene->path);
-    if (found.count == 0)
-        return;
-    if (found.count > 1)
-        snprintf(others, sizeof others, " (and %zu other pair%s)", found.count - 1,
-                 found.count > 2 ? "s" : "");
-    log_warning(
-        "%s:%d:%d: transparent bodies \"%s\" and \"%s\" overlap%s, which the model does not cover; a "
-        "body wholly inside another is no mistake, if its ior is relative to that one's (air in glass: "
-        "1/1.5)",
-        scene->path, found.b->place.line, found.b->place.column, found.a->name, found.b->name, others);
+    size_t count = bodies ? count_overlaps(scene, bodies, &a, &b) : 0;
+    if (count > 1)
+        snprintf(others, sizeof others, " (and %zu other pair%s)", count - 1, count > 2 ? "s" : "");
+    if (count > 0)
+        log_warning(
+            "%s:%d:%d: transparent bodies \"%s\" and \"%s\" overlap%s, which the model does not cover; a "
+            "body wholly inside another is no mistake, if its ior is relative to that one's (air in glass: "
+            "1/1.5)",
+            scene->path, b->place.line, b->place.column, a->name, b->name, others);
+    free(bodies);
 }
 
-/* Whether the light shines on some point of a matte object, with u and v as they are or swapped. */
-static bool shines_on_any(const struct scene *scene, const struct scene_light *light, bool swapped)
+/* Whether the light shines on some point of a matte object; turned: with u and v swapped. */
+static bool shines_on_any(const struct scene *scene, const struct scene_light *light, bool turned)
 {
     struct dvec3 back = dvec3_unit(dvec3_cross(dvec3_of(light->quad.u), dvec3_of(light->quad.v)));
-    struct dvec3 axis = dvec3_scale(swapped ? 1 : -1, back);
+    struct dvec3 axis = dvec3_scale(turned ? 1 : -1, back);
     for (size_t i = 0; i < scene->object_count; ++i) {
-        const struct scene_object *object = &scene->objects[i];
-        bool sphere = object->type == OBJECT_SPHERE;
-        struct dvec3 point = dvec3_of(sphere ? object->sphere.center : object->plane.point);
-        double height = dvec3_dot(axis, dvec3_subtract(point, dvec3_of(light->quad.corner)));
-        if (scene->materials[object->material].type != MATERIAL_MATTE)
-            continue;
-        if (height + (sphere ? object->sphere.radius : 0) > 0)
-            return true;
-        if (!sphere &&
-            dvec3_length(dvec3_cross(axis, dvec3_unit(dvec3_of(object->plane.normal)))) > resolution)
+        const struct body body = body_of(&scene->objects[i]);
+        struct dvec3 point = body.is_ball ? body.vector : dvec3_scale(body.number, body.vector);
+        double reach = body.is_ball ? body.number : 0;
+        if (!body.is_ball && dvec3_length(dvec3_cross(axis, body.vector)) > RESOLUTION)
+            reach = INFINITY;
+        if (scene->materials[scene->objects[i].material].type == MATERIAL_MATTE &&
+            dvec3_dot(axis, dvec3_subtract(point, dvec3_of(light->quad.corner))) + reach > 0)
             return true;
     }
     return false;

@@ -33,7 +33,7 @@ static struct fy_node *alias_target(struct fy_node *alias)
         fy_document_lookup_anchor_by_token(fy_node_document(alias), fy_node_get_scalar_token(alias)));
 }
 
-struct yaml_value yaml_read(struct diagnostics *report, struct fy_node *node)
+struct yaml_value yaml_read(struct diagnostics *report, struct fy_node *node, struct fy_node *around)
 {
     struct yaml_value value = {.written = node, .node = fy_node_is_alias(node) ? alias_target(node) : node};
     value.type = fy_node_get_type(value.node);
@@ -41,6 +41,8 @@ struct yaml_value yaml_read(struct diagnostics *report, struct fy_node *node)
     value.plain = value.type == FYNT_SCALAR && fy_node_get_style(value.node) == FYNS_PLAIN;
     if (token)
         read_text(report, token, &value);
+    if (value.plain && value.length == 0 && value.node == node)
+        value.written = around;
     return value;
 }
 
@@ -49,26 +51,10 @@ static struct scene_place mark_place(const struct fy_mark *mark)
     return mark ? (struct scene_place){mark->line + 1, mark->column + 1} : (struct scene_place){1, 1};
 }
 
-/* The node whose start is the place of an empty one, because versions of libfyaml differ in where they see
- * that: its key, or what it is in; NULL for an empty document. Of any other node the node itself. */
-static struct fy_node *node_to_place(struct diagnostics *report, struct fy_node *node)
-{
-    struct fy_node *parent = fy_node_get_document_parent(node);
-    struct fy_node_pair *pair;
-    const struct yaml_value value = yaml_read(report, node);
-    if (!value.plain || value.length > 0 || fy_node_is_alias(node))
-        return node;
-    for (void *at = NULL; (pair = fy_node_mapping_iterate(parent, &at));)
-        if (fy_node_pair_value(pair) == node)
-            return fy_node_pair_key(pair);
-    return parent;
-}
-
 /* The start of a list or mapping is known to the events that libfyaml makes of a document, and nowhere else.
  */
 struct scene_place yaml_place(struct diagnostics *report, struct fy_node *node)
 {
-    node = node_to_place(report, node);
     if (!node)
         return (struct scene_place){1, 1};
     struct fy_document_iterator *iterator = fy_document_iterator_create();
@@ -104,11 +90,6 @@ static size_t printable_character(const unsigned char *text, size_t length)
     return code < least[size] || code > 0x10FFFF || surrogate || code == 0xFFFE || code == 0xFFFF ? 0 : size;
 }
 
-static int bracket(char byte)
-{
-    return byte == '[' || byte == '{' ? 1 : byte == ']' || byte == '}' ? -1 : 0;
-}
-
 /* Whether an anchor may begin at text[at]; in a text of several words that is "&" before one of them. */
 static bool may_be_anchor(const char *text, size_t length, size_t at)
 {
@@ -124,7 +105,8 @@ static void check_characters(struct diagnostics *report)
     int open = 0, anchors = 0;
     for (size_t at = 0, size; at < report->length && report->count == 0; at += size) {
         size = printable_character((const unsigned char *)text + at, report->length - at);
-        open = open + bracket(text[at]) > 0 ? open + bracket(text[at]) : 0;
+        open += text[at] == '[' || text[at] == '{';
+        open -= (text[at] == ']' || text[at] == '}') && open > 0;
         anchors += may_be_anchor(text, report->length, at);
         if (size == 0)
             report_error(report, place, "must be printable UTF-8 text, has the byte 0x%02X",
@@ -181,7 +163,7 @@ static void check_node(struct diagnostics *report, struct fy_node *node)
         report_error(report, yaml_place(report, node), "alias %s: no such anchor before it",
                      report_quote(name.text, name.length, quote));
     }
-    if (quoted && strstr(yaml_read(report, node).text, "''")) /* 0.7.12 makes 3 of the 2 in 'a''''b' */
+    if (quoted && strstr(yaml_read(report, node, NULL).text, "''")) /* 0.7.12 makes 3 of the 2 in 'a''''b' */
         report_error(report, yaml_place(report, node),
                      "quotes in a row: this text needs double quotes around it");
 }

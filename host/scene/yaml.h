@@ -20,11 +20,13 @@ struct yaml_value {
  * is none, or after an error (reported); the caller destroys it. */
 struct fy_document *yaml_load(struct diagnostics *report);
 
-/* On lack of memory this and the next function set report->no_memory. */
-struct yaml_value yaml_read(struct diagnostics *report, struct fy_node *node);
+/* An empty value counts as written where its key is, or else what it is in, which is given as `around`:
+ * versions of libfyaml differ in where they see it. On lack of memory this and the next function set
+ * report->no_memory.
+ */
+struct yaml_value yaml_read(struct diagnostics *report, struct fy_node *node, struct fy_node *around);
 
-/* Where the node is written. An empty value stands where its key does. Looking for an empty node takes long
- * in a long list. */
+/* Where the node is written; NULL: at the start of the file. */
 struct scene_place yaml_place(struct diagnostics *report, struct fy_node *node);
 
 #endif

@@ -1,7 +1,6 @@
 #include "tracer/job.h"
 
 #include "base/interrupt.h"
-#include "scene/warnings.h"
 
 static enum status choose_window(const struct picture_settings *settings, struct window *window)
 {

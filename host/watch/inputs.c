@@ -16,6 +16,7 @@
 
 #include "base/clock.h"
 #include "base/text_file.h"
+#include "scene/scene.h"
 
 /* How long, in milliseconds, a file that has been changed must stay as it is: it is known that nobody has it
  * open for writing; it is not known; somebody has. */
@@ -25,7 +26,7 @@ static const double closed_ms = 20, unknown_ms = 200, open_ms = 1000;
  * some in 2 s. */
 static const double fine_ms = 20, coarse_ms = 2000;
 
-enum { MOST_FOLDERS_DEEP = 3, MOST_SCENE_BYTES = 16 << 20 /* as scene_read() */ };
+enum { MOST_FOLDERS_DEEP = 3 };
 
 /* A look at files. */
 struct look {
@@ -156,7 +157,7 @@ bool inputs_follow(struct inputs *inputs, char **shader_files, bool broken)
 
 char *inputs_read_scene(const struct inputs *inputs, size_t *length)
 {
-    char *text = text_file_read(inputs->scene_path, true, MOST_SCENE_BYTES, length);
+    char *text = text_file_read(inputs->scene_path, true, SCENE_MAX_FILE_SIZE, length);
     if (!text)
         fprintf(stderr, "%s: error: %s\n", inputs->scene_path, strerror(errno));
     return text;

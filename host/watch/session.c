@@ -6,7 +6,6 @@
 
 #include "base/clock.h"
 #include "scene/scene.h"
-#include "scene/warnings.h"
 
 /* Says that the picture on show is not what the files say. */
 static void tell_failure(struct session *session, const char *what, const char *details, double milliseconds)
