@@ -4,8 +4,8 @@
 
 #include "geometry.h"
 
-/* Whether the line from ray->origin meets the sphere or comes near it, with both projected along `normal`. `line`
- * is the ray's direction, projected likewise. */
+/* Whether the line from ray->origin meets the sphere or comes near it, with both projected along `normal`.
+ * `line` is the ray's direction, projected likewise. */
 static inline bool passes_near(const struct ray *ray, struct vec3 line, struct vec3 normal,
                                layout_vec4 sphere)
 {

@@ -53,12 +53,13 @@ typedef struct PackedQuadLight QuadLight;
     MEMBER(float, distance) MEMBER(int, from_inside) MEMBER(Vector, point) MEMBER(Vector, normal)
 #define SEGMENT(MEMBER)                                                                                      \
     MEMBER(Vector, from)                                                                                     \
-    MEMBER(Vector, to) MEMBER(Vector, direction) MEMBER(float, distance) MEMBER(int, surface)                \
-        MEMBER(int, inward)
+    MEMBER(Vector, to)                                                                                       \
+    MEMBER(Vector, direction) MEMBER(float, distance) MEMBER(int, surface) MEMBER(int, inward)
 #define MATTE(MEMBER)                                                                                        \
     MEMBER(Vector, point)                                                                                    \
-    MEMBER(Vector, normal) MEMBER(Vector, ray_direction) MEMBER(float, cos_out) MEMBER(int, surface)         \
-        MEMBER(int, inward) MEMBER(float, a) MEMBER(float, b)
+    MEMBER(Vector, normal)                                                                                   \
+    MEMBER(Vector, ray_direction) MEMBER(float, cos_out) MEMBER(int, surface) MEMBER(int, inward)            \
+        MEMBER(float, a) MEMBER(float, b)
 STRUCT(RayRecord, RAY)
 STRUCT(HitRecord, HIT)
 STRUCT(SegmentRecord, SEGMENT)
@@ -112,15 +113,15 @@ STRUCT(MatteRecord, MATTE)
 
 #define INPUT_quad_light(MEMBER)                                                                             \
     MEMBER(MatteRecord, matte)                                                                               \
-    MEMBER(QuadLight, light) MEMBER(int, seed) MEMBER(int, pixel_sample) MEMBER(Sphere, sphere)              \
-        MEMBER(Plane, plane)
+    MEMBER(QuadLight, light)                                                                                 \
+    MEMBER(int, seed) MEMBER(int, pixel_sample) MEMBER(Sphere, sphere) MEMBER(Plane, plane)
 #define OUTPUT_quad_light(MEMBER) MEMBER(Vector, radiance) MEMBER(int, shadow_rays)
 
 #define FUNCTIONS(DO)                                                                                        \
     DO(divide)                                                                                               \
-    DO(root) DO(unit) DO(hash) DO(sobol_point) DO(meet_sphere) DO(meet_plane) DO(nearest_hit)                \
-        DO(sphere_shadows) DO(plane_shadows) DO(reflect) DO(refract) DO(oren_nayar) DO(point_light)          \
-            DO(quad_light)
+    DO(root)                                                                                                 \
+    DO(unit) DO(hash) DO(sobol_point) DO(meet_sphere) DO(meet_plane) DO(nearest_hit) DO(sphere_shadows)      \
+        DO(plane_shadows) DO(reflect) DO(refract) DO(oren_nayar) DO(point_light) DO(quad_light)
 
 #define MAKE_RECORDS(name)                                                                                   \
     STRUCT(name##_input, INPUT_##name)                                                                       \
