@@ -39,7 +39,7 @@ struct SavedPath {
 struct SavedPixel {
     SavedPath path;
     real3 radiance, leaves, rounding;
-    real charge, charges;
+    real threshold, charge, cut_off, charges;
     uint secondary_rays, shadow_rays, signature;
     int pending;
 };
@@ -57,7 +57,9 @@ void save(uint place, Pixel pixel, Path path, int pending)
     saved_pixels[place].radiance = pixel.radiance;
     saved_pixels[place].leaves = pixel.leaves;
     saved_pixels[place].rounding = pixel.rounding;
+    saved_pixels[place].threshold = pixel.threshold;
     saved_pixels[place].charge = pixel.charge;
+    saved_pixels[place].cut_off = pixel.cut_off;
     saved_pixels[place].charges = pixel.charges;
     saved_pixels[place].secondary_rays = pixel.tally.secondary_rays;
     saved_pixels[place].shadow_rays = pixel.tally.shadow_rays;
@@ -83,7 +85,9 @@ void load(uint place, inout Pixel pixel, inout Path path, inout int pending)
     pixel.radiance = saved_pixels[place].radiance;
     pixel.leaves = saved_pixels[place].leaves;
     pixel.rounding = saved_pixels[place].rounding;
+    pixel.threshold = saved_pixels[place].threshold;
     pixel.charge = saved_pixels[place].charge;
+    pixel.cut_off = saved_pixels[place].cut_off;
     pixel.charges = saved_pixels[place].charges;
     pixel.tally.secondary_rays = saved_pixels[place].secondary_rays;
     pixel.tally.shadow_rays = saved_pixels[place].shadow_rays;

@@ -60,10 +60,6 @@ typedef struct PackedSurface PackedSurface;
  * radiance. Charges are summed to nearest; this factor after each makes them sums rounded up. */
 #define ROUND_UP 1.0000002384185791015625 /* 1 + 2^-22 */
 
-/* A ray is left out on purpose if it is charged at most this share of what is left of the allowance; see
- * NUMERICS.md. */
-#define LARGEST_SHARE 0.25
-
 /* What both tracers can tell of one pixel: events in the order of the recursion. Each has a head and values: two
  * vectors and a number. */
 #define EVENT_RAY 0      /* facts: surface left, inward; values: origin, direction, weight */
@@ -107,6 +103,7 @@ struct EventHead {
 #define SHARED_B y
 #define RADIANCE_BOUND x  /* PackedView.truncation: no ray brings more radiance than this */
 #define ALLOWANCE y       /* what a sample may be charged for rays left out; negative: none is left out */
+#define FIRST_THRESHOLD z /* rays of smaller weight are left out at the first attempt; see NUMERICS.md */
 
 struct PackedSurface {
     LAYOUT_VEC4 parameters;

@@ -177,7 +177,7 @@ error:
 enum status tracer_become_resumable(struct tracer *tracer)
 {
     /* of SavedPixel and SavedPath in resume.glsl, in double; float takes less */
-    enum { SAVED_PIXEL_BYTES = 192, SAVED_PATH_BYTES = 64, MOST_BYTES = 1 << 26, MOST_PIXELS = 4096 };
+    enum { SAVED_PIXEL_BYTES = 224, SAVED_PATH_BYTES = 64, MOST_BYTES = 1 << 26, MOST_PIXELS = 4096 };
     unsigned stack_room = tracer->packed->max_bounces > 0 ? (unsigned)tracer->packed->max_bounces : 1;
     unsigned pixels = MOST_BYTES / (SAVED_PATH_BYTES * stack_room);
     pixels = pixels < MOST_PIXELS ? pixels : MOST_PIXELS;
