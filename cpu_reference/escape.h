@@ -1,11 +1,11 @@
-/* Rays that no surface but mirrors will ever stop. */
-#ifndef REFERENCE_LOST_H
-#define REFERENCE_LOST_H
+/* Rays that escape: reflected between parallel mirrors for ever, they meet nothing else. */
+#ifndef REFERENCE_ESCAPE_H
+#define REFERENCE_ESCAPE_H
 
 #include "geometry.h"
 
-/* Whether a straight line in the plane across `normal`, from ray->origin along the ray's direction, meets the
- * sphere or comes near: both shadows of the sphere and of the line are taken along normal. */
+/* Whether the line from ray->origin meets the sphere or comes near it, with both projected along `normal`. `line`
+ * is the ray's direction, projected likewise. */
 static inline bool passes_near(const struct ray *ray, struct vec3 line, struct vec3 normal,
                                layout_vec4 sphere)
 {
@@ -21,7 +21,7 @@ static inline bool passes_near(const struct ray *ray, struct vec3 line, struct v
     return !(beside > reach_squared * dot(line, line));
 }
 
-/* Whether the ray, just reflected by a mirror, goes on between parallel mirrors for ever. */
+/* Whether the ray, which a mirror has just reflected, escapes. */
 static inline bool escapes(const struct packed_scene *scene, const struct ray *ray)
 {
     struct vec3 normal = vector_of(scene->view.between_mirrors);

@@ -26,8 +26,9 @@ static inline void record(int kind, layout_ivec4 facts, struct vec3 first, struc
     static _Thread_local struct reference_event not_kept;
     last_event = event_log->count < event_log->room ? &event_log->events[event_log->count] : &not_kept;
     ++event_log->count;
+    event_place.EVENT_KIND = kind;
     *last_event = (struct reference_event){
-        .head = {{kind, event_place.y, event_place.z, event_place.w}, facts},
+        .head = {event_place, facts},
         .values = {(double)first.x, (double)first.y, (double)first.z, (double)second.x, (double)second.y,
                    (double)second.z, (double)third},
         .margin = INFINITY,
@@ -56,9 +57,10 @@ static inline struct vec3 each(double bound)
 static inline void record_ray(uint32_t sample, const struct ray *ray, real weight, int bounces,
                               uint32_t branch)
 {
-    event_place = (layout_ivec4){0, (int)sample, (int)branch, bounces};
-    record(EVENT_RAY, (layout_ivec4){.x = ray->surface, .y = ray->inward}, ray->origin, ray->direction,
-           weight);
+    event_place =
+        (layout_ivec4){.EVENT_OF_SAMPLE = (int)sample, .EVENT_BRANCH = (int)branch, .EVENT_BOUNCES = bounces};
+    record(EVENT_RAY, (layout_ivec4){.EVENT_SURFACE = ray->surface, .EVENT_INWARD = ray->inward}, ray->origin,
+           ray->direction, weight);
 }
 
 /* The first object that stands between the ends, which is there. */
@@ -79,14 +81,15 @@ static inline int find_blocker(const struct packed_scene *scene, const struct se
 #define RECORD_RAY(sample, path)                                                                             \
     record_ray(sample, &(path)->ray, (real)(path)->weight, (path)->bounces, (path)->branch)
 #define RECORD_HIT(hit)                                                                                      \
-    record(EVENT_HIT, (layout_ivec4){.x = (hit)->surface, .y = (hit)->from_inside}, (hit)->normal,           \
-           (hit)->point, (hit)->surface < 0 ? 0 : (hit)->distance)
+    record(EVENT_HIT,                                                                                        \
+           (layout_ivec4){.EVENT_SURFACE = (hit)->surface, .EVENT_FROM_INSIDE = (hit)->from_inside},         \
+           (hit)->normal, (hit)->point, (hit)->surface < 0 ? 0 : (hit)->distance)
 #define RECORD_SPLIT(cos_in, refraction)                                                                     \
-    record(EVENT_SPLIT, (layout_ivec4){.x = (refraction).total}, (refraction).direction,                     \
+    record(EVENT_SPLIT, (layout_ivec4){.EVENT_TOTAL = (refraction).total}, (refraction).direction,           \
            (struct vec3){cos_in, (refraction).reflectance, 0}, 0)
 #define RECORD_UNTRACED(when, why, weight, weight_bound, charge)                                             \
     if (when)                                                                                                \
-    record(EVENT_UNTRACED, (layout_ivec4){.x = why}, (struct vec3){(real)(weight), charge, 0},               \
+    record(EVENT_UNTRACED, (layout_ivec4){.EVENT_REASON = why}, (struct vec3){(real)(weight), charge, 0},    \
            (struct vec3){0, 0, 0}, 0),                                                                       \
         record_bounds(each(weight_bound), each(0), 0, INFINITY)
 #define RECORD_LEAF(seen, leaf) record(EVENT_LEAF, (layout_ivec4){0, 0, 0, 0}, seen, leaf, 0)

@@ -21,7 +21,7 @@ struct tracked_path {
     struct ray_error error;
     double weight, e_weight;
     int bounces;
-    uint32_t branch; /* as in tracer.c */
+    uint32_t branch; /* of the ray tree, as in tracer.c */
 };
 
 static void trace(struct pixel *pixel, const struct tracked_path *path);

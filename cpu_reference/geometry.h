@@ -27,7 +27,7 @@ struct hit {
 /* Where a line passes a sphere: Haines, Guenther and Akenine-Moeller, "Precision Improvements for
  * Ray/Sphere Intersection", Ray Tracing Gems (2019), chapter 7. */
 struct approach {
-    real along;                /* signed distance to the closest approach */
+    real along;                /* signed distance to the closest approach, the point nearest to the centre */
     struct vec3 center_offset; /* from there to the centre */
     real half_chord_squared;   /* > 0: the line meets the sphere */
 };

@@ -17,8 +17,8 @@ struct sample {
     uint32_t seed, index;
     struct vec3 radiance, rounding; /* the rounded sum, and what rounding took from it */
     real threshold;                 /* rays of smaller weight are left out */
-    real charge;                    /* for rays that were not traced; of these, by max_bounces: */
-    real cut_off;
+    real charge;                    /* for rays that were not traced, see ROUND_UP */
+    real cut_off;                   /* what of that is for rays that max_bounces cut off */
     struct tally tally;
 };
 
@@ -26,7 +26,8 @@ struct path {
     struct ray ray;
     real weight;
     int bounces;
-    uint32_t branch; /* in the binary tree of splits: 0 the root, 2 i + 1 and 2 i + 2 the children of i */
+    uint32_t branch; /* of the binary ray tree that glass makes: 0 the root; of i, 2 i + 1 refracted, 2 i + 2
+                      * reflected */
 };
 
 static void trace(struct sample *sample, const struct path *path);
@@ -43,7 +44,7 @@ static real charge(real charges, const struct sample *sample, real weight)
     return (charges + weight * (real)sample->scene->view.truncation.RADIANCE_BOUND) * (real)ROUND_UP;
 }
 
-/* Whether a ray of this weight is to be traced; otherwise it has been charged. */
+/* Whether a ray of this weight is to be traced; where it is not, the sample has been charged for it. */
 static bool is_traced(struct sample *sample, real weight)
 {
     if (weight > (real)SMALLEST_WEIGHT && weight >= sample->threshold)
@@ -140,9 +141,9 @@ static void trace(struct sample *sample, const struct path *path)
         trace_dielectric(sample, path, &hit, reflected);
         return;
     }
-    bool lost = scene->view.between_mirrors.w != 0 && escapes(scene, &reflected.ray);
-    RECORD_UNTRACED(lost, UNTRACED_ESCAPES, path->weight, 0, sample->charge);
-    if (!lost)
+    bool escaping = scene->view.between_mirrors.w != 0 && escapes(scene, &reflected.ray);
+    RECORD_UNTRACED(escaping, UNTRACED_ESCAPES, path->weight, 0, sample->charge);
+    if (!escaping)
         trace_secondary(sample, &reflected);
 }
 

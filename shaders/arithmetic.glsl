@@ -36,7 +36,7 @@ real native_root(real a)
 #endif
 
 // a / b and the root of a, correctly rounded except with FAST: by the device itself or, for a device that is not
-// exact (see host/probe.h), corrected. CORRECTED is a define of its own because dead code costs lavapipe 50 ms.
+// exact (see host/vulkan/probe.h), corrected. CORRECTED is a define of its own because dead code costs lavapipe 50 ms.
 real divide(real a, real b)
 {
 #ifdef CORRECTED

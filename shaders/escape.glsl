@@ -1,15 +1,15 @@
-// Rays that go on between parallel mirrors for ever. Seen along the mirrors' normal, a ray between them runs straight on;
-// where that line leads away from all matte planes and past all spheres, the ray ends nowhere, and brings nothing.
+// Rays that escape: reflected between parallel mirrors for ever. Seen along the mirrors' normal, such a ray runs straight
+// on; where that line leads away from all matte planes and past all spheres, the ray ends nowhere, and brings nothing.
 
 bool escapes(Ray ray)
 {
     real3 normal = real3(hoisted_view.between_mirrors.xyz);
     real towards_mirror = dot3(ray.direction, normal);
-    bool lost = towards_mirror > real(MIRROR_DRIFT) || towards_mirror < -real(MIRROR_DRIFT);
+    bool escaping = towards_mirror > real(MIRROR_DRIFT) || towards_mirror < -real(MIRROR_DRIFT);
     FOR_EACH(i, PLANES, {
         PackedPlane plane = get_plane(i);
         real away = dot3(ray.direction, real3(plane.normal_offset.xyz));
-        lost = lost && (plane.surface.tags.SURFACE_KIND == KIND_MIRROR || away > real(MIRROR_DRIFT));
+        escaping = escaping && (plane.surface.tags.SURFACE_KIND == KIND_MIRROR || away > real(MIRROR_DRIFT));
     })
     exact real3 line = ray.direction - towards_mirror * normal;
     if (SPHERES > 0) // lavapipe runs the body of an empty loop once, masked
@@ -24,7 +24,7 @@ bool escapes(Ray ray)
             exact real reach_squared = reach * reach;
             exact real reach_on_line = reach_squared * line_squared;
             exact real beside = apart_squared * line_squared - along * along;
-            lost = lost && (along > real(0) ? beside > reach_on_line : apart_squared > reach_squared);
+            escaping = escaping && (along > real(0) ? beside > reach_on_line : apart_squared > reach_squared);
         })
-    return lost;
+    return escaping;
 }

@@ -4,14 +4,14 @@
 struct Ray {
     real3 origin, direction; // direction of length 1
     int surface;             // the object the ray leaves, -1 for the camera; spheres first, then planes
-    bool inward;             // it leaves a sphere towards the inside
+    bool inward;             // it leaves that surface towards the inside of a sphere
 };
 
 // Where a line passes a sphere (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray
 // Tracing Gems, chapter 7): all terms are of the sphere's size, however far away it is.
 struct Approach {
-    real along;             // from the origin to the closest approach
-    real3 center_offset;             // from the closest approach to the centre
+    real along;              // from the origin to the closest approach, the line's point nearest to the centre
+    real3 center_offset;     // from the closest approach to the centre
     real half_chord_squared; // negative: it misses
 };
 
@@ -56,7 +56,8 @@ bool comes_first(real distance, int file_order, Hit nearest)
     return distance < nearest.distance;
 }
 
-void take(bool closer, inout Hit nearest, real distance, int surface, bool from_inside, vec4 shape, PackedSurface material)
+void take(bool closer, inout Hit nearest, real distance, int surface, bool from_inside, vec4 shape,
+          PackedSurface material)
 {
     nearest.distance = closer ? distance : nearest.distance;
     nearest.surface = closer ? surface : nearest.surface;
@@ -135,22 +136,29 @@ void meet_plane(Ray ray, int i, inout Hit nearest)
         height = height > real(0) ? height : real(0); // an opaque plane is never behind the ray's origin
     }
     exact real distance = divide(height, -slope);
-    take(met && ray.surface != SPHERES + i && comes_first(distance, material.tags.FILE_ORDER, nearest), nearest, distance, SPHERES + i, from_inside, shape, material);
+    bool closer = met && ray.surface != SPHERES + i && comes_first(distance, material.tags.FILE_ORDER, nearest);
+    take(closer, nearest, distance, SPHERES + i, from_inside, shape, material);
+}
+
+Hit no_hit()
+{
+    Hit none;
+    none.distance = real(FARTHEST_HIT);
+    none.surface = -1;
+    none.from_inside = false;
+    none.shape = vec4(0);
+    none.parameters = vec4(0);
+    none.oren_nayar_b = 0.0;
+    none.kind = KIND_MATTE;
+    none.file_order = 0;
+    none.center_offset = real3(0);
+    none.half_chord = real(0);
+    return none;
 }
 
 Hit nearest_hit(Ray ray)
 {
-    Hit nearest;
-    nearest.distance = real(FARTHEST_HIT);
-    nearest.surface = -1;
-    nearest.from_inside = false;
-    nearest.shape = vec4(0);
-    nearest.parameters = vec4(0);
-    nearest.oren_nayar_b = 0.0;
-    nearest.kind = KIND_MATTE;
-    nearest.file_order = 0;
-    nearest.center_offset = real3(0);
-    nearest.half_chord = real(0);
+    Hit nearest = no_hit();
     FOR_EACH(i, SPHERES, meet_sphere(ray, i, nearest);)
     FOR_EACH(i, PLANES, meet_plane(ray, i, nearest);)
     return nearest;

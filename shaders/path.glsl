@@ -7,7 +7,7 @@ struct Path {
     Ray ray;
     real weight;
     int bounces;
-    uint branch; // in the binary tree of splits, 0 the root, children of i: 2 i + 1 refracted, 2 i + 2 reflected
+    uint branch; // of the binary ray tree that glass makes: 0 the root; of i, 2 i + 1 refracted, 2 i + 2 reflected
 };
 
 // The reflections still to be traced: at most one for every bounce count.

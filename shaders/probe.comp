@@ -1,4 +1,4 @@
-// What the device's own arithmetic does with the operands that it is given; host/probe.c judges the results.
+// What the device's own arithmetic does with the operands that it is given; host/vulkan/probe.c judges the results.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,6 +1,6 @@
-// Ray trees too large for one dispatch. Lavapipe runs an invocation in each lane of a vector and ends all loops of a
-// vector, without a word, after 65535 turns together. So turns are counted here. A resumable pipeline traces a sample for
-// some turns and leaves the rest of the tree in buffers, for the next dispatch.
+// Ray trees too large for one dispatch. Lavapipe runs an invocation in each lane of a vector. It ends all loops of a
+// vector after 65535 turns, counted together, and reports nothing; so turns are counted here. A resumable pipeline
+// traces a sample for some turns and saves the rest of its tree in buffers, for the next dispatch.
 
 uint most_rays = 0u, most_leaves = 0u; // of a sample, in this lane
 
@@ -40,7 +40,6 @@ struct SavedPixel {
     SavedPath path;
     real3 radiance, leaves, rounding;
     real threshold, charge, cut_off, charges;
-    uint secondary_rays, shadow_rays, signature;
     int pending;
 };
 
@@ -61,9 +60,6 @@ void save(uint place, Pixel pixel, Path path, int pending)
     saved_pixels[place].charge = pixel.charge;
     saved_pixels[place].cut_off = pixel.cut_off;
     saved_pixels[place].charges = pixel.charges;
-    saved_pixels[place].secondary_rays = pixel.tally.secondary_rays;
-    saved_pixels[place].shadow_rays = pixel.tally.shadow_rays;
-    saved_pixels[place].signature = pixel.tally.signature;
     saved_pixels[place].pending = pending;
     for (int i = 0; i < pending; ++i) {
         uint entry = place * uint(STACK_ROOM) + uint(i);
@@ -89,9 +85,6 @@ void load(uint place, inout Pixel pixel, inout Path path, inout int pending)
     pixel.charge = saved_pixels[place].charge;
     pixel.cut_off = saved_pixels[place].cut_off;
     pixel.charges = saved_pixels[place].charges;
-    pixel.tally.secondary_rays = saved_pixels[place].secondary_rays;
-    pixel.tally.shadow_rays = saved_pixels[place].shadow_rays;
-    pixel.tally.signature = saved_pixels[place].signature;
     pending = saved_pixels[place].pending;
     for (int i = 0; i < pending; ++i) {
         uint entry = place * uint(STACK_ROOM) + uint(i);

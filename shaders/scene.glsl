@@ -13,9 +13,9 @@ layout(constant_id = 9) const bool MIRRORS = true;
 layout(constant_id = 10) const bool GLASS = true;
 layout(constant_id = 11) const bool GLASS_PLANES = true;
 layout(constant_id = 12) const bool ROUGH = true;            // some matte is not Lambert
-layout(constant_id = 13) const bool SPHERES_HOLD_RAYS = true;   // some sphere has PackedSphere tag z
-layout(constant_id = 14) const bool SPHERES_HOLD_LIGHTS = true; // some sphere has PackedSphere tag w
-layout(constant_id = 15) const bool PLANES_SHADOW = true;       // some plane has PackedPlane tag z
+layout(constant_id = 13) const bool SPHERES_HOLD_RAYS = true;   // some sphere has HOLDS_RAYS
+layout(constant_id = 14) const bool SPHERES_HOLD_LIGHTS = true; // some sphere has HOLDS_LIGHTS
+layout(constant_id = 15) const bool PLANES_SHADOW = true;       // some plane has CASTS_SHADOWS
 layout(constant_id = 16) const bool MIXED_ORDER = true; // a plane stands before a sphere in the file
 layout(constant_id = 17) const bool ONE_ROUGHNESS = false; // all matte surfaces have view.matte
 layout(constant_id = 18) const uint PLANE_AXES = 0u; // two bits a plane: normal along x 1, y 2, z 3, other 0
@@ -29,7 +29,7 @@ layout(constant_id = 24) const bool PRUNES = false; // rays are left out within 
 
 layout(constant_id = 25) const uint TURN_LIMIT = ~0u; // of loops, after which the driver ends them all
 layout(constant_id = 26) const bool RESUMABLE = false;  // see resume.glsl
-layout(constant_id = 27) const bool RAYS_ESCAPE = false; // between parallel mirrors
+layout(constant_id = 27) const bool RAYS_ESCAPE = false; // see escape.glsl
 
 const bool SECONDARY_RAYS = (MIRRORS || GLASS) && MAX_BOUNCES > 0;
 
@@ -47,8 +47,8 @@ SCENE_ARRAY(2, PackedPlane, planes, PLANES);
 SCENE_ARRAY(3, PackedPointLight, point_lights, POINT_LIGHTS);
 SCENE_ARRAY(4, PackedQuadLight, quad_lights, QUAD_LIGHTS);
 
-// Mesa's lavapipe loads a uniform once for all lanes only outside of control flow, and lane by lane inside. So
-// small scenes are copied to variables first thing; their loops are unrolled, which makes registers of them.
+// Mesa's lavapipe loads a uniform once for all lanes only outside of control flow, and lane by lane inside. So small
+// scenes are hoisted: copied to variables first thing. Loops over them are unrolled, which makes registers of these.
 const bool HOISTED = SPHERES + PLANES + POINT_LIGHTS + QUAD_LIGHTS <= 24;
 
 // A loop over objects or lights. Drivers unroll it by themselves where the scene is small; made to unroll 400

@@ -39,34 +39,35 @@ typedef struct PackedSurface PackedSurface;
 /* A ray of smaller weight is not traced and a smaller pixel value is 0, for the same reason. */
 #define SMALLEST_WEIGHT 8.077935669463161e-28 /* 2^-90 */
 
-/* What a pixel's three values are: radiance; the numbers of primary, secondary and shadow rays; or the path
- * signature, a hash of every decision of the ray tree, as its lower and upper 16 bits and 0; or what rays that
- * were not traced are charged. */
+/* What a pixel's three values are: radiance; or, as unsigned integers, 0 and the numbers of secondary and shadow rays
+ * that the dispatch has traced, or 0, the path signature (a hash of every decision of the ray tree) and 0; or what
+ * rays that were not traced are charged. */
 #define OUTPUT_RADIANCE 0
 #define OUTPUT_RAYS 1
 #define OUTPUT_SIGNATURE 2
 #define OUTPUT_TRUNCATION 3 /* the charges of the pixel's samples, summed, 0 and 0 */
 
-/* A pixel's first value where it has none yet: a resumable pipeline has part of its ray tree left; or its loops were,
- * or may have been, ended by the driver. */
+/* A pixel's first value (an integer where they are integers) where it has none yet: a resumable pipeline has part of its
+ * ray tree left; or its loops were, or may have been, ended by the driver. */
 #define UNFINISHED (-1.0)
 #define TOO_LONG (-2.0)
 
-/* What the direction of a ray and the line it keeps to between parallel mirrors may be off by after 1000 bounces,
- * relative: a bounce loses less than 2^-20. */
+/* What the direction of a ray, and its line projected along the normal of the parallel mirrors that reflect it, may
+ * be off by after 1000 bounces, relative: a bounce loses less than 2^-20. */
 #define MIRROR_DRIFT 0.0009765625 /* 2^-10 */
 
-/* A ray that is not traced is charged the most that it could have brought, its weight times the bound on
- * radiance. Charges are summed to nearest; this factor after each makes them sums rounded up. */
+/* The charge for a ray that is not traced is the most that it could have brought: its weight, which is its share
+ * in the pixel, times the bound on radiance. Charges are summed to nearest; this factor after each addition makes
+ * the sum one that is rounded up. */
 #define ROUND_UP 1.0000002384185791015625 /* 1 + 2^-22 */
 
 /* What both tracers can tell of one pixel: events in the order of the recursion. Each has a head and values: two
  * vectors and a number. */
-#define EVENT_RAY 0      /* facts: surface left, inward; values: origin, direction, weight */
-#define EVENT_HIT 1      /* facts: surface or -1, from_inside; values: normal, point, distance */
-#define EVENT_SPLIT 2    /* facts: total reflection; values: refracted direction, (cos_in, k_r) */
-#define EVENT_UNTRACED 3 /* facts: UNTRACED_; values: (weight, charge of the sample so far) */
-#define EVENT_LIGHT 4    /* facts: light, sample, LIGHT_, blocker; values: point, (distance, cos_in, received), area */
+#define EVENT_RAY 0      /* values: origin, direction, weight */
+#define EVENT_HIT 1      /* values: normal, point, distance */
+#define EVENT_SPLIT 2    /* at glass; values: refracted direction, (cos_in, k_r) */
+#define EVENT_UNTRACED 3 /* values: (weight, charge of the sample so far) */
+#define EVENT_LIGHT 4    /* a point of a light; values: point, (distance, cos_in, received), area */
 #define EVENT_LEAF 5     /* values: radiance seen, contribution */
 #define EVENT_SAMPLE 6   /* values: radiance, 0, charge */
 #define EVENT_PIXEL 7    /* values: radiance */
@@ -76,15 +77,31 @@ typedef struct PackedSurface PackedSurface;
 #define UNTRACED_REFLECTED 0
 #define UNTRACED_REFRACTED 1
 #define UNTRACED_BOUNCES 2 /* max_bounces */
-#define UNTRACED_ESCAPES 3    /* between parallel mirrors, where nothing else is */
+#define UNTRACED_ESCAPES 3 /* see escape.glsl */
 
 #define LIGHT_TOO_NEAR 0 /* to shine, see NEAREST_LIGHT_SQUARED */
 #define LIGHT_BEHIND 1   /* the surface */
 #define LIGHT_SHADOW_RAY 2
 
+/* What the slots of an event's head hold. */
+#define EVENT_KIND x         /* place: EVENT_RAY, ... */
+#define EVENT_OF_SAMPLE y    /* the pixel's sample */
+#define EVENT_BRANCH z       /* of the ray, in the tree of its sample: 0 the primary ray, children of i: 2 i + 1
+                              * refracted, 2 i + 2 reflected */
+#define EVENT_BOUNCES w      /* of the ray */
+#define EVENT_SURFACE x      /* facts: the surface that a ray leaves or meets; -1: none */
+#define EVENT_INWARD y       /* of rays: into the body whose surface they leave */
+#define EVENT_FROM_INSIDE y  /* of hits */
+#define EVENT_TOTAL x        /* of splits: total reflection */
+#define EVENT_REASON x       /* of rays that are not traced: UNTRACED_ */
+#define EVENT_OF_LIGHT x     /* of points of lights: the light; point lights come first */
+#define EVENT_LIGHT_SAMPLE y
+#define EVENT_LIGHT_STATE z  /* LIGHT_ */
+#define EVENT_BLOCKER w      /* the surface that stands in between; -1: none */
+
 struct EventHead {
-    LAYOUT_IVEC4 place; /* EVENT_, the pixel's sample, branch and bounces of the ray */
-    LAYOUT_IVEC4 facts;
+    LAYOUT_IVEC4 place; /* which step of the ray tree it is */
+    LAYOUT_IVEC4 facts; /* its decisions */
 };
 
 /* What the slots of vectors hold: surface.tags.FILE_ORDER, and so on. */
@@ -145,7 +162,7 @@ struct PackedView {
     LAYOUT_VEC4 background; /* radiance */
     LAYOUT_VEC4 matte;
     LAYOUT_VEC4 truncation;
-    LAYOUT_VEC4 between_mirrors; /* xyz: unit normal of parallel mirrors, w: not 0 where rays that get lost
+    LAYOUT_VEC4 between_mirrors; /* xyz: unit normal of parallel mirrors, w: not 0 where rays that escape
                                   * between them are to be left out */
 };
 

@@ -18,6 +18,7 @@
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(std430, set = 0, binding = 5) buffer Picture { real picture[]; }; // the tile, RGB; sums until the last sample
+layout(std430, set = 0, binding = 5) buffer Counts { uint counts[]; }; // the same memory, for outputs that are integers
 layout(push_constant) uniform TileBlock {
     uvec2 origin, size, image_size; // pixels
     uint first_sample, end_sample;  // of SAMPLES, in this dispatch
@@ -27,14 +28,15 @@ uvec2 tile_origin, tile_size, image_size;
 uint first_sample, end_sample;
 bool sample_goes_on;
 
+const bool INTEGERS = OUTPUT == OUTPUT_RAYS || OUTPUT == OUTPUT_SIGNATURE;
 const bool CHARGES = PRUNES || OUTPUT == OUTPUT_TRUNCATION || RECORDS;
 
 struct Pixel {
     real3 radiance; // sum over the samples
     real3 leaves, rounding; // of the sample: the rounded sum of what its rays see, and what rounding took from it
     real threshold; // of the sample: rays of smaller weight are left out
-    real charge; // of the sample, for rays that are not traced
-    real cut_off; // of that, by MAX_BOUNCES
+    real charge; // of the sample, for rays that are not traced, see ROUND_UP
+    real cut_off; // what of that is for rays that MAX_BOUNCES cut off
     real charges; // of the samples before
     uint seed;
     uint sample_index;
@@ -50,7 +52,7 @@ real charge(real charges, real weight)
     return sum;
 }
 
-// Whether a ray of this weight is to be traced; otherwise it has been charged.
+// Whether a ray of this weight is to be traced; where it is not, the sample has been charged for it.
 bool is_traced(inout Pixel pixel, real weight)
 {
     bool traced = weight > real(SMALLEST_WEIGHT) && !(PRUNES && weight < pixel.threshold);
@@ -136,9 +138,9 @@ bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real
     path.ray.surface = hit.surface;
     path.ray.inward = hit.from_inside;
     if (!GLASS || hit.kind != KIND_TRANSPARENT) {
-        bool lost = RAYS_ESCAPE && escapes(path.ray);
-        emit_untraced(lost, UNTRACED_ESCAPES, path.weight, pixel.charge);
-        return !lost;
+        bool escaping = RAYS_ESCAPE && escapes(path.ray);
+        emit_untraced(escaping, UNTRACED_ESCAPES, path.weight, pixel.charge);
+        return !escaping;
     }
 
     real eta = real(hit.from_inside ? hit.parameters.ETA_EXITING : hit.parameters.ETA_ENTERING);
@@ -167,7 +169,7 @@ bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real
     return reflects || refracts;
 }
 
-// Adds what the path's last ray sees to the sample. The exact rounding error of each sum is kept (Knuth, TAOCP 2,
+// Adds a leaf of the ray tree to the sample: what a ray sees that ends here. The exact rounding error of each sum is kept (Knuth, TAOCP 2,
 // 4.2.2), so that leaving out rays changes the picture by what they would have brought, and not by how the others
 // round.
 void add_leaf(inout Pixel pixel, Path path, Hit hit, real3 point, real3 normal)
@@ -256,26 +258,48 @@ bool render_sample(inout Pixel pixel, Path primary, uint place)
     return true;
 }
 
-// Takes up what the dispatches of the samples before have left.
-void resume(inout Pixel pixel, real3 left)
+// What an earlier dispatch has left of the pixel.
+real3 stored(uint place)
 {
-    if (OUTPUT == OUTPUT_RADIANCE)
-        pixel.radiance = left;
-    if (OUTPUT == OUTPUT_TRUNCATION)
-        pixel.charges = left.x;
-    pixel.tally.secondary_rays = uint(left.y);
-    pixel.tally.shadow_rays = uint(left.z);
-    if (OUTPUT == OUTPUT_SIGNATURE)
-        pixel.tally.signature = uint(left.x) | uint(left.y) << 16;
+    if (INTEGERS)
+        return real3(int(counts[3u * place]));
+    return real3(picture[3u * place], picture[3u * place + 1u], picture[3u * place + 2u]);
 }
 
-// The pixel's three values; the first is UNFINISHED where it is not done.
-real3 render_pixel(uvec2 position, uint place)
+// Of a pixel without values yet.
+void store_mark(uint place, real mark)
+{
+    if (INTEGERS)
+        counts[3u * place] = uint(int(mark));
+    else
+        picture[3u * place] = mark;
+}
+
+// The values of the pixel or, of integers, the mark in value.x and the tally.
+void store(uint place, real3 value, Tally tally)
+{
+    store_mark(place, value.x);
+    if (INTEGERS) {
+        counts[3u * place + 1u] = OUTPUT == OUTPUT_RAYS ? tally.secondary_rays : tally.signature;
+        counts[3u * place + 2u] = tally.shadow_rays;
+    } else {
+        picture[3u * place + 1u] = value.y;
+        picture[3u * place + 2u] = value.z;
+    }
+}
+
+// The pixel's three values; the first is UNFINISHED where it is not done. Of integers only the first: they are in the
+// tally.
+real3 render_pixel(uvec2 position, uint place, out Tally tally)
 {
     Pixel pixel = Pixel(real3(0), real3(0), real3(0), real(0), real(0), real(0), real(0), 0u, 0u, Tally(0u, 0u, 0u));
     real3 left = real3(0);
     if (SAMPLES > 1 || RESUMABLE)
-        left = real3(picture[3u * place], picture[3u * place + 1u], picture[3u * place + 2u]);
+        left = stored(place);
+    // a signature goes through all samples; rays are counted by the dispatch
+    if (OUTPUT == OUTPUT_SIGNATURE && (first_sample > 0u || sample_goes_on))
+        pixel.tally.signature = counts[3u * place + 1u];
+    tally = pixel.tally;
     if (RESUMABLE && sample_goes_on && left.x != real(UNFINISHED))
         return left;
     if (SAMPLES > 1 || QUAD_LIGHTS > 0)
@@ -284,8 +308,10 @@ real3 render_pixel(uvec2 position, uint place)
     Sequence sequence;
     if (SAMPLES > 1) {
         sequence = sequence_of(pixel.seed);
-        if (first_sample > 0u)
-            resume(pixel, left);
+        if (OUTPUT == OUTPUT_RADIANCE && first_sample > 0u)
+            pixel.radiance = left;
+        if (OUTPUT == OUTPUT_TRUNCATION && first_sample > 0u)
+            pixel.charges = left.x;
     }
     // One call for both cases: each call is another copy of the tracer, which costs lavapipe 100 ms.
     for (uint k = SAMPLES > 1 ? first_sample : 0u; k < (SAMPLES > 1 ? end_sample : 1u); ++k) {
@@ -295,12 +321,11 @@ real3 render_pixel(uvec2 position, uint place)
             sequence_point(sequence, k, x, y);
         finished = render_sample(pixel, primary_path(position, x, y), place);
     }
+    tally = pixel.tally;
     if (RESUMABLE && !finished)
         return real3(UNFINISHED);
-    if (OUTPUT == OUTPUT_RAYS)
-        return real3(real(SAMPLES), real(pixel.tally.secondary_rays), real(pixel.tally.shadow_rays));
-    if (OUTPUT == OUTPUT_SIGNATURE)
-        return real3(real(pixel.tally.signature & 0xffffu), real(pixel.tally.signature >> 16), real(0));
+    if (INTEGERS)
+        return real3(0);
     if (OUTPUT == OUTPUT_TRUNCATION)
         return real3(pixel.charges, real(0), real(0));
     if (end_sample < uint(SAMPLES))
@@ -334,13 +359,13 @@ void main()
         begin_pixel_events(in_tile);
         uint place = inside ? in_tile.y * tile_size.x + in_tile.x : 0u;
         real3 value = real3(0);
+        Tally tally;
         if (!RESUMABLE || inside)
-            value = render_pixel(tile_origin + in_tile, place);
+            value = render_pixel(tile_origin + in_tile, place, tally);
         if (inside)
-            for (uint c = 0u; c < 3u; ++c)
-                picture[3u * place + c] = value[c];
+            store(place, value, tally);
     }
     uvec2 first = uvec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * ROWS);
     if (too_many_turns(end_sample - first_sample) && all(lessThan(first, tile_size)))
-        picture[3u * (first.y * tile_size.x + first.x)] = real(TOO_LONG);
+        store_mark(first.y * tile_size.x + first.x, real(TOO_LONG));
 }

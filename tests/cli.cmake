@@ -63,24 +63,30 @@ function(add_cli_tests script)
             cli/${script}/${name}
             PROPERTIES LABELS cli TIMEOUT 120 SKIP_RETURN_CODE 77
                        ENVIRONMENT "VKWHITTED=$<TARGET_FILE:vkwhitted>;BROKEN=$<TARGET_FILE:vkwhitted_broken>;\
-JSON_GET=$<TARGET_FILE:json_get>;SOURCE_DIR=${PROJECT_SOURCE_DIR};SANITIZE=${VKWHITTED_SANITIZE}")
+JSON_GET=$<TARGET_FILE:json_get>;SOURCE_DIR=${PROJECT_SOURCE_DIR};\
+BINARY_DIR=${PROJECT_BINARY_DIR};SANITIZE=${VKWHITTED_SANITIZE}")
     endforeach()
 endfunction()
-add_cli_tests(usage no_command unknown_command unknown_option missing_argument size numbers crop crop_outside
-              option_of_another_command choices impossible_together several_scenes help_and_version)
-add_cli_tests(input missing_scene folder_as_scene bad_scene bad_scene_among_good_ones)
+add_cli_tests(usage no_command unknown_command unknown_option missing_argument value_like_an_option size numbers crop
+              crop_outside option_of_another_command choices impossible_together several_scenes help_and_version
+              manual_page completion)
+add_cli_tests(input missing_scene folder_as_scene bad_scene bad_scene_among_good_ones scene_that_is_warned_of)
 add_cli_tests(output formats same_bits_on_both_backends exr_metadata transfer unknown_suffix unwritable_folder
               missing_folder disk_full existing_file_kept_on_failure crop_of_16384 stats)
 add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer loops_ended_early
               devices)
 add_cli_tests(check agreement difference tolerance allow heatmap json worst_status)
-add_cli_tests(bench files without_device report compare bad_comparison options interrupted)
+add_cli_tests(bench files without_device report chart compare bad_comparison options interrupted)
 set_tests_properties(cli/bench/files cli/bench/compare PROPERTIES TIMEOUT 400)
 add_cli_tests(pixel agreement samples max_bounces max_error broken_k_r broken_shadow broken_normal broken_total
               broken_term broken_picture against json light_samples place options)
 add_cli_tests(interrupt sigint_on_device sigint_on_cpu sigterm)
 add_cli_tests(watch scene_edits_keep_the_pipeline shader_edits broken_and_repaired broken_at_the_start ways_of_saving
-              checked_in_the_background validated saves)
+              missing_includes written_slowly quick_saves idle checked_in_the_background checked_in_double validated
+              saves no_resumable_pipeline)
+add_library(no_pipelines MODULE no_pipelines.c)
+target_link_libraries(no_pipelines PRIVATE Vulkan::Headers)
+set_property(TEST cli/watch/no_resumable_pipeline APPEND PROPERTY ENVIRONMENT "NO_PIPELINES=$<TARGET_FILE:no_pipelines>")
 add_cli_tests(progress on_a_terminal not_elsewhere quiet)
 if(VKWHITTED_SLOW_TESTS)
     add_cli_tests(output size_16384)

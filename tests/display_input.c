@@ -1,12 +1,10 @@
 #include <math.h>
-#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include <cmocka.h>
 
@@ -117,28 +115,11 @@ static void test_pointer(void **state)
     assert_input(&input, &(struct display_input){.closed = true});
 }
 
-static void *wake_later(void *user)
-{
-    (void)user;
-    nanosleep(&(struct timespec){.tv_nsec = 100000000}, NULL);
-    display_wake();
-    return NULL;
-}
-
-static void test_wake(void **state)
+static void test_wait(void **state)
 {
     (void)state;
     assert_shows(WIDTH, HEIGHT);
-    pthread_t thread;
     double start = clock_ms();
-    assert_int_equal(pthread_create(&thread, NULL, wake_later, NULL), 0);
-    wait_for_input(patience_ms / 1e3);
-    assert_true(clock_ms() < start + patience_ms / 2);
-    pthread_join(thread, NULL);
-    display_wake();
-    wait_for_input(patience_ms / 1e3);
-    assert_true(clock_ms() < start + patience_ms / 2);
-    start = clock_ms();
     wait_for_input(0.25);
     assert_true(clock_ms() >= start + 250);
 }
@@ -148,7 +129,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_keys, open_window, close_window),
         cmocka_unit_test_setup_teardown(test_pointer, open_window, close_window),
-        cmocka_unit_test_setup_teardown(test_wake, open_window, close_window),
+        cmocka_unit_test_setup_teardown(test_wait, open_window, close_window),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
 }

@@ -23,7 +23,7 @@ static void test_bytes(void **state)
             assert_int_equal((unsigned char)image->data[4 * i + 2 - channel], rgba[4 * i + channel]);
     XDestroyImage(image);
     draw_noise(2);
-    assert_int_equal(display_show(display, rgba, WIDTH, HEIGHT), STATUS_DONE);
+    assert_int_equal(show_picture(), STATUS_DONE);
     assert_shows(WIDTH, HEIGHT);
 }
 
@@ -36,12 +36,6 @@ static void test_sizes(void **state)
         x11_window_resize(&window, sizes[i][0], sizes[i][1]);
         assert_shows(sizes[i][0], sizes[i][1]);
     }
-    x11_window_resize(&window, 100, 100);
-    struct display_input input = {0};
-    for (double start = clock_ms(); !input.resized && clock_ms() < start + patience_ms;)
-        input = wait_for_input(1);
-    assert_true(input.resized);
-    assert_false(wait_for_input(0).resized);
 }
 
 static void *resize_on_and_on(void *user)
@@ -66,7 +60,7 @@ static void test_dragged_corner(void **state)
     pthread_t thread;
     assert_int_equal(pthread_create(&thread, NULL, resize_on_and_on, NULL), 0);
     for (double start = clock_ms(); clock_ms() < start + 500;) {
-        assert_int_equal(display_show(display, rgba, WIDTH, HEIGHT), STATUS_DONE);
+        assert_int_equal(show_picture(), STATUS_DONE);
         wait_for_input(0);
     }
     pthread_join(thread, NULL);
@@ -85,7 +79,7 @@ static void test_hidden_and_minimised(void **state)
         wait_for_input(0.1);
         assert_true(x11_window_attributes(&window).map_state != IsViewable);
         draw_noise(3 + (uint32_t)minimised);
-        assert_int_equal(display_show(display, rgba, WIDTH, HEIGHT), STATUS_DONE);
+        assert_int_equal(show_picture(), STATUS_DONE);
         x11_window_resize(&window, 200, 200);
         wait_for_input(0.1);
         if (minimised)
@@ -107,6 +101,22 @@ static void test_uncovered(void **state)
     XDestroyWindow(window.server, cover);
     assert_shows(WIDTH, HEIGHT);
     XClearArea(window.server, window.id, 10, 10, 100, 100, True);
+    assert_shows(WIDTH, HEIGHT);
+}
+
+/* Larger than any device's images. */
+static void test_too_large(void **state)
+{
+    (void)state;
+    char line[256];
+    test_messages_begin();
+    unsigned char *place = display_picture(display, 1 << 20, 1);
+    int lines = test_messages_end(line);
+    assert_null(place);
+    assert_int_equal(lines, 1);
+    assert_non_null(strstr(line, "error: a window shows pictures of up to "));
+    wait_for_input(0.01);
+    assert_int_equal(show_picture(), STATUS_DONE);
     assert_shows(WIDTH, HEIGHT);
 }
 
@@ -132,10 +142,9 @@ static void test_no_display(void **state)
         struct vulkan_options options = {0};
         setenv("DISPLAY", names[i], 1);
         test_messages_begin();
-        enum status status = window_system_open(&options);
-        int lines = test_messages_end(line);
+        enum status status = display_connect(&options);
+        test_messages_end(line);
         assert_int_equal(status, STATUS_UNABLE);
-        assert_int_equal(lines, 1);
         assert_non_null(strstr(line, "error: cannot open a window: "));
     }
 }
@@ -148,6 +157,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_dragged_corner, open_window, close_window),
         cmocka_unit_test_setup_teardown(test_hidden_and_minimised, open_window, close_window),
         cmocka_unit_test_setup_teardown(test_uncovered, open_window, close_window),
+        cmocka_unit_test_setup_teardown(test_too_large, open_window, close_window),
         cmocka_unit_test_setup_teardown(test_title, open_window, close_window),
     };
     const struct CMUnitTest without_server[] = {cmocka_unit_test(test_no_display)};

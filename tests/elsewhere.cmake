@@ -27,7 +27,8 @@ add_executable(reference_bits reference_bits/reference_bits.c)
 target_link_libraries(reference_bits PRIVATE reference)
 set(packed_scenes ${CMAKE_CURRENT_BINARY_DIR}/reference_bits_scenes)
 set(expected_bits ${CMAKE_CURRENT_BINARY_DIR}/reference_bits_expected)
-add_test(NAME elsewhere/pack_scenes COMMAND pack_scenes ${packed_scenes} 60x40 ${figure_scenes} ${hard_scenes})
+add_test(NAME elsewhere/pack_scenes
+         COMMAND pack_scenes ${packed_scenes} 24x16 ${figure_scenes} ${hard_scenes} ${test_scenes})
 add_test(NAME elsewhere/reference_bits COMMAND sh -c "\"$0\" \"$1\" >\"$2\" && test -s \"$2\""
                                                $<TARGET_FILE:reference_bits> ${packed_scenes} ${expected_bits})
 set_tests_properties(elsewhere/pack_scenes PROPERTIES LABELS elsewhere FIXTURES_SETUP packed_scenes)

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/text.h"
+#include "scene/scene.h"
 
 /* libFuzzer entry for the scene file reader. Run it with -close_fd_mask=2: messages are its normal output. */
 

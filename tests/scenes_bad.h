@@ -21,6 +21,15 @@ static const struct {
     {HEAD "a: b: c\n", "3:5: error: YAML syntax: invalid nested block mapping on the same line"},
     {HEAD "objects: !list []\n", "3:10: error: scene files have no YAML tags (\"!...\")"},
     {HEAD "objects: *nowhere\n", "3:10: error: alias \"nowhere\": no such anchor before it"},
+    {HEAD "objects: *b\nlights: &b []\n", "3:10: error: alias \"b\": no such anchor before it"},
+    {HEAD "objects: *b/0\nlights: &b [[]]\n", "3:10: error: alias \"b/0\": no such anchor before it"},
+    {HEAD "{ x: &a 1, *a : 2 }: 5\n",
+     "3:1: error: a key must be a word, is a mapping; the keys here are camera, "
+     "image, materials, objects, lights, background, max_bounces and "
+     "light_samples"},
+    {HEAD ": 5\n",
+     "1:1: error: unknown key empty; the keys here are camera, image, materials, objects, lights, "
+     "background, max_bounces and light_samples"},
     {HEAD "objects: &a [*a]\n", "3:14: error: alias \"a\": no such anchor before it"},
     {HEAD "---\ncamera: 1\n", "3:1: error: a second document; a scene file must hold one"},
     {HEAD "...\nmore\n", "4:1: error: a second document; a scene file must hold one"},
@@ -34,7 +43,8 @@ static const struct {
           "[2J\n",
      "3:3: error: must be printable UTF-8 text, has the byte 0x1B"},
     {HEAD "objects: [\n@\n]\n", "4:1: error: YAML syntax: wrongly indented flow sequence"},
-    {HEAD "objects: [[[[[[[[[[[[[[[[[[[[\n", "3:25: error: nested more than 16 deep"},
+    {HEAD "objects: [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[\n",
+     "3:72: error: YAML syntax: Max depth (64) exceeded"},
     {HEAD "objects: 'a''''b'\n", "3:10: error: quotes in a row: this text needs double quotes around it"},
     {"image: { width: 4, height: 4 }\n", "1:1: error: missing key \"camera\""},
     {"camera: { position: [0, 0, 0], look_at: [0, 0, 1] }\n", "1:1: error: missing key \"image\""},

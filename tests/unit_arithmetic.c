@@ -119,18 +119,19 @@ static struct tally run(struct vulkan_context *context, struct spirv code, bool 
     print_message("seed %" PRIu64 ", %d pairs of operands\n", seed, batches * BATCH);
     for (int batch = 0; batch < batches; ++batch) {
         fill(seed, batch, operands);
-        assert_int_equal(vulkan_compute(context,
-                                        &(struct compute_job){
-                                            .code = code,
-                                            .constants = (const uint32_t[]){corrected, corrected},
-                                            .constant_count = 2,
-                                            .input = operands,
-                                            .input_size = BATCH * sizeof *operands,
-                                            .output = results,
-                                            .output_size = BATCH * sizeof *results,
-                                            .groups = BATCH / GROUP,
-                                        }),
-                         STATUS_DONE);
+        assert_int_equal(
+            vulkan_compute(context,
+                           &(struct compute_job){
+                               .code = code,
+                               .constants = (const struct pass_constant[]){{0, corrected}, {1, corrected}},
+                               .constant_count = 2,
+                               .input = operands,
+                               .input_size = BATCH * sizeof *operands,
+                               .output = results,
+                               .output_size = BATCH * sizeof *results,
+                               .groups = BATCH / GROUP,
+                           }),
+            STATUS_DONE);
         judge(operands, results, normal, print, &tally);
     }
     free(operands);

@@ -9,14 +9,12 @@
 
 #include <cmocka.h>
 
-#include <sys/stat.h>
-
 #include "base/statistics.h"
 #include "bench/compare.h"
-#include "bench/energy.h"
-#include "bench/error.h"
-#include "bench/pareto.h"
+#include "bench/document.h"
+#include "bench/report.h"
 #include "test_folder.h"
+#include "test_render.h"
 
 static void assert_near(double value, double expected, double tolerance)
 {
@@ -24,23 +22,36 @@ static void assert_near(double value, double expected, double tolerance)
         fail_msg("%.17g, expected %.17g", value, expected);
 }
 
+/* Points with these times and errors within which 99.9 % of the pixels are. */
+static void make_points(const double *times, const double *errors, size_t count, struct bench_point *points)
+{
+    for (size_t i = 0; i < count; ++i)
+        points[i] = (struct bench_point){.median_ms = times[i], .error.absolute_999 = errors[i]};
+}
+
 static void front_is_what_nothing_beats(void **state)
 {
     (void)state;
-    const double times[] = {1, 2, 3, 2, 5, 1, 0.5}, errors[] = {9, 4, 4, 3, 1, 9, INFINITY};
-    const bool expected[] = {true, false, false, true, true, true, false};
-    bool front[7];
-    pareto_front(times, errors, 7, front);
-    assert_memory_equal(front, expected, sizeof front);
+    const double times[] = {1, 2, 3, 2, 5, 1, 0.5, 6}, errors[] = {9, 4, 4, 3, 1, 9, INFINITY, 5};
+    const bool expected[] = {true, false, false, true, true, true, false, true};
+    struct bench_point points[8];
+    make_points(times, errors, 8, points);
+    points[7].setting.family = FAMILY_SAMPLES; /* has a truth of its own */
+    bench_mark_pareto(points, 8);
+    for (int i = 0; i < 8; ++i)
+        assert_int_equal(points[i].pareto, expected[i]);
 }
 
 static void fastest_within_an_error(void **state)
 {
     (void)state;
-    const double times[] = {5, 3, 4, 1}, errors[] = {1e-3, 1e-2, 1e-2, NAN};
-    assert_int_equal(fastest_within(times, errors, 4, 1e-2), 1);
-    assert_int_equal(fastest_within(times, errors, 4, 5e-3), 0);
-    assert_int_equal(fastest_within(times, errors, 4, 1e-4), 4);
+    const double times[] = {5, 3, 4, 1, 0.5}, errors[] = {1e-3, 1e-2, 1e-2, NAN, 1e-6};
+    struct bench_point points[5];
+    make_points(times, errors, 5, points);
+    points[4].setting.family = FAMILY_SAMPLES;
+    assert_ptr_equal(bench_fastest_within(points, 5, 1e-2), &points[1]);
+    assert_ptr_equal(bench_fastest_within(points, 5, 5e-3), &points[0]);
+    assert_null(bench_fastest_within(points, 5, 1e-4));
 }
 
 static void slope_of_a_power(void **state)
@@ -96,7 +107,7 @@ static void errors_of_a_picture(void **state)
     for (int i = 0; i < 12; ++i)
         exact[i] = rgb[i] = 0.5F;
     const struct image image = {.width = 2, .height = 2, .rgb = rgb};
-    const struct ground_truth truth = {.grid = pixel_grid_fitting(2, 2, 4), .rgb = exact};
+    const struct ground_truth truth = {.pixels = {.grid = pixel_grid_fitting(2, 2, 4), .rgb = exact}};
     struct bench_error error;
     assert_int_equal(bench_error_measure(&image, &truth, &error), STATUS_DONE);
     assert_true(error.max == 0 && error.rmse == 0 && error.rmse_uncertainty == 0 &&
@@ -260,57 +271,6 @@ static void compare_nothing_in_common(void **state)
     assert_non_null(strstr(text, "another truth"));
 }
 
-static void write_number(const char *folder, const char *name, const char *text)
-{
-    char path[600];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-}
-
-static void make_zone(const char *zone, const char *name, const char *microjoules)
-{
-    mkdir(zone, 0700);
-    write_number(zone, "name", name);
-    write_number(zone, "energy_uj", microjoules);
-    write_number(zone, "max_energy_range_uj", "1000000\n");
-}
-
-static void remove_zone(const char *zone)
-{
-    static const char *const files[] = {"name", "energy_uj", "max_energy_range_uj"};
-    for (int i = 0; i < 3; ++i) {
-        char path[64];
-        snprintf(path, sizeof path, "%s/%s", zone, files[i]);
-        unlink(path);
-    }
-}
-
-static void energy_of_the_packages(void **state)
-{
-    (void)state;
-    struct energy_meter meter;
-    double joules = -1;
-    energy_meter_open(&meter, test_folder);
-    assert_false(energy_meter_read(&meter, &joules));
-    make_zone("intel-rapl:0", "package-0\n", "900000\n");
-    make_zone("intel-rapl:1", "psys\n", "5\n");
-    make_zone("intel-rapl:2", "package-1\n", "100000\n");
-    energy_meter_open(&meter, test_folder);
-    assert_int_equal(meter.count, 2);
-    write_number("intel-rapl:0", "energy_uj", "100000\n"); /* has started again */
-    write_number("intel-rapl:2", "energy_uj", "400000\n");
-    assert_true(energy_meter_read(&meter, &joules));
-    assert_near(joules, 0.2 + 0.3, 1e-9);
-    assert_true(energy_meter_read(&meter, &joules));
-    assert_near(joules, 0.5, 1e-9);
-    remove_zone("intel-rapl:0");
-    remove_zone("intel-rapl:1");
-    remove_zone("intel-rapl:2");
-}
-
 static void no_bench_document(void **state)
 {
     (void)state;
@@ -318,7 +278,10 @@ static void no_bench_document(void **state)
     for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i) {
         json_t *document;
         char message[256];
-        write_number(".", "old.json", texts[i]);
+        FILE *file = fopen("old.json", "w");
+        assert_non_null(file);
+        fputs(texts[i], file);
+        fclose(file);
         test_messages_begin();
         enum status status = bench_document_read("old.json", &document);
         assert_int_equal(test_messages_end(message), 1);
@@ -326,6 +289,109 @@ static void no_bench_document(void **state)
         assert_null(document);
         assert_non_null(strstr(message, "old.json"));
     }
+}
+
+/* The linker has calloc() and malloc() of the program, but not of its libraries, come here. The one that is
+ * so many calls away fails. */
+static int calls_to_failure = -1;
+void *__real_calloc(size_t count, size_t size);
+void *__real_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_malloc(size_t size);
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    return calls_to_failure-- == 0 ? NULL : __real_calloc(count, size);
+}
+
+void *__wrap_malloc(size_t size)
+{
+    return calls_to_failure-- == 0 ? NULL : __real_malloc(size);
+}
+
+static struct scene glass;
+static struct picture_settings glass_picture;
+static const struct truth_effort little = {.quad = 1e4, .with_double = 1e4, .explained = 1e4, .samples = 16};
+
+static bool deep_enough, truth_emptied = true;
+
+static enum status deepest(void)
+{
+    struct packed_scene packed;
+    unsigned most;
+    enum status status = pack_scene(&glass, &glass_picture, &packed);
+    if (status != STATUS_DONE)
+        return status;
+    status = ground_truth_bounces(&packed, &most);
+    deep_enough = most == 64;
+    pack_destroy(&packed);
+    return status;
+}
+
+static enum status truth_and_error(void)
+{
+    struct ground_truth truth;
+    struct progress progress;
+    struct bench_error error;
+    static float black[12 * 8 * 3];
+    progress_start(&progress, "", 10, true);
+    enum status status =
+        ground_truth_create(&glass, glass_picture, TRUTH_EXACT, &little, &progress, 10, &truth);
+    if (status != STATUS_DONE) {
+        truth_emptied &= !truth.pixels.rgb;
+        return status;
+    }
+    status = bench_error_measure(&(struct image){.width = 12, .height = 8, .rgb = black}, &truth, &error);
+    grid_pixels_destroy(&truth.pixels);
+    return status;
+}
+
+static enum status rounds(void)
+{
+    struct progress progress;
+    progress_start(&progress, "", 10, true);
+    return bench_run_rounds(NULL, 0, &(struct run_limits){.all_ms = 1}, NULL, &progress, 10);
+}
+
+static enum status pictures(void)
+{
+    static float black[12 * 8 * 3];
+    const struct image image = {.width = 12, .height = 8, .rgb = black};
+    json_t *made;
+    enum status status = report_pictures(&image, &image, &made);
+    if (status == STATUS_DONE && !made)
+        return STATUS_REFUSED;
+    json_decref(made);
+    return status;
+}
+
+/* Each of the allocations fails once: that is reported once, and is no crash. */
+static void no_memory(void **state)
+{
+    (void)state;
+    enum status (*const tries[])(void) = {deepest, truth_and_error, rounds, pictures};
+    glass = test_read("scenes/figure_3c.yaml");
+    glass_picture = test_settings(&glass);
+    glass_picture.width = 12;
+    glass_picture.height = 8;
+    for (size_t i = 0; i < sizeof tries / sizeof *tries; ++i) {
+        int failures = 0;
+        for (enum status status = STATUS_UNABLE; status != STATUS_DONE; ++failures) {
+            char message[256];
+            test_messages_begin();
+            calls_to_failure = failures;
+            status = tries[i]();
+            bool failed = calls_to_failure < 0;
+            calls_to_failure = -1;
+            int messages = test_messages_end(message);
+            if (status != (failed ? STATUS_UNABLE : STATUS_DONE) || messages != failed)
+                fail_msg("try %zu, allocation %d: status %d, %d messages: %s", i, failures, (int)status,
+                         messages, message);
+        }
+        assert_true(failures > 1);
+    }
+    assert_true(deep_enough && truth_emptied);
+    scene_destroy(&glass);
 }
 
 int main(void)
@@ -341,7 +407,7 @@ int main(void)
         cmocka_unit_test(compare_with_control),
         cmocka_unit_test(compare_errors),
         cmocka_unit_test(compare_nothing_in_common),
-        cmocka_unit_test_setup_teardown(energy_of_the_packages, test_folder_setup, test_folder_teardown),
+        cmocka_unit_test(no_memory),
         cmocka_unit_test_setup_teardown(no_bench_document, test_folder_setup, test_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

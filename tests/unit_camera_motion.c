@@ -12,7 +12,7 @@
 
 #include "base/number.h"
 #include "scene/pack.h"
-#include "scene/text.h"
+#include "scene/scene.h"
 #include "scene/vector.h"
 #include "watch/camera_motion.h"
 

@@ -12,6 +12,7 @@
 #include <png.h>
 
 #include "check/compare.h"
+#include "check/heatmap.h"
 #include "test_folder.h"
 
 static float float_of(uint32_t bits)
@@ -148,6 +149,35 @@ static void test_sizes_must_be_the_same(void **state)
     image_destroy(&b);
 }
 
+/* A float picture and a double one of the same scene differ nearly everywhere, which says nothing. */
+static void test_precisions_must_be_the_same(void **state)
+{
+    (void)state;
+    struct image narrow = picture(2, 2), wide = picture(2, 2);
+    assert_int_equal(image_widen(&wide), STATUS_DONE);
+    const struct image *const pairs[][2] = {{&narrow, &wide}, {&wide, &narrow}};
+    struct comparison comparison = {.differing = 7, .max_error = 1};
+    for (int i = 0; i < 2; ++i) {
+        char line[256];
+        test_messages_begin();
+        enum status status = image_compare(pairs[i][0], pairs[i][1], NULL, &comparison);
+        assert_int_equal(test_messages_end(line), 1);
+        assert_int_equal(status, STATUS_REFUSED);
+        assert_non_null(strstr(line, "precision"));
+        assert_int_equal(comparison.differing, 0);
+        assert_true(comparison.max_error == 0);
+    }
+    struct image other = picture(2, 2);
+    assert_int_equal(image_widen(&other), STATUS_DONE);
+    assert_int_equal(image_compare(&wide, &other, NULL, &comparison), STATUS_DONE);
+    other.rgb64[5] = 0x1p-60;
+    assert_int_equal(image_compare(&wide, &other, NULL, &comparison), STATUS_DIFFERS);
+    assert_true(comparison.max_error == 0x1p-60);
+    image_destroy(&narrow);
+    image_destroy(&wide);
+    image_destroy(&other);
+}
+
 static void test_heatmap(void **state)
 {
     (void)state;
@@ -198,6 +228,7 @@ int main(void)
         cmocka_unit_test(test_values),
         cmocka_unit_test(test_pixels_are_counted_and_the_worst_is_found),
         TEST_IN_FOLDER(test_sizes_must_be_the_same),
+        cmocka_unit_test(test_precisions_must_be_the_same),
         TEST_IN_FOLDER(test_heatmap),
     };
     return cmocka_run_group_tests_name("compare", tests, NULL, NULL);

@@ -1,5 +1,4 @@
 #include <limits.h>
-#include <locale.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -116,34 +115,23 @@ static void test_format_double(void **state)
     }
 }
 
-/* Every double printed with 17 digits must come back, in any locale that this machine has. */
-static void test_round_trip_and_locale(void **state)
+/* Every double printed with 17 digits must come back. */
+static void test_round_trip(void **state)
 {
     (void)state;
-    static const char *const locales[] = {"C", "de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"};
-    char texts[1000][32];
-    double values[1000];
     uint64_t random = 1;
     for (size_t i = 0; i < 1000; i++) {
+        double expected, value = NAN;
+        char text[32];
         do {
             random = random * 6364136223846793005U + 1442695040888963407U;
             uint64_t bits = random ^ random >> 29;
-            memcpy(&values[i], &bits, sizeof(bits));
-        } while (!isfinite(values[i]));
-        snprintf(texts[i], sizeof(texts[i]), "%.17g", values[i]);
+            memcpy(&expected, &bits, sizeof(bits));
+        } while (!isfinite(expected));
+        snprintf(text, sizeof(text), "%.17g", expected);
+        if (!parse_double(text, strlen(text), &value) || value != expected)
+            fail_msg("\"%s\" became %.17g", text, value);
     }
-    for (size_t l = 0; l < sizeof(locales) / sizeof(locales[0]); l++) {
-        if (!setlocale(LC_ALL, locales[l]))
-            continue;
-        for (size_t i = 0; i < 1000; i++) {
-            double value = NAN;
-            if (!parse_double(texts[i], strlen(texts[i]), &value) || value != values[i])
-                fail_msg("\"%s\" became %.17g in the locale %s", texts[i], value, locales[l]);
-        }
-        double comma;
-        assert_false(parse_double("1,5", 3, &comma));
-    }
-    setlocale(LC_ALL, "C");
 }
 
 static void test_unsigned(void **state)
@@ -214,7 +202,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_doubles),       cmocka_unit_test(test_not_doubles),
-        cmocka_unit_test(test_length_counts), cmocka_unit_test(test_round_trip_and_locale),
+        cmocka_unit_test(test_length_counts), cmocka_unit_test(test_round_trip),
         cmocka_unit_test(test_unsigned),      cmocka_unit_test(shortest),
         cmocka_unit_test(test_format_double),
     };

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "pixel/fields.h"
+#include "pixel/event.h"
 #include "test_render.h"
 
 enum { WIDTH = 60, HEIGHT = 40, PIXELS = 3 };
@@ -47,21 +47,21 @@ static void add_exactly(float *sum, float *rounding, float leaf)
 }
 
 /* The leaves make the samples, and the last event is the pixel. */
-static void check_sums(const char *name, const struct pixel_events *events, const float *picture)
+static void check_sums(const char *name, const struct ray_tree *events, const float *picture)
 {
     float sum[3] = {0}, rounding[3] = {0};
     for (size_t i = 0; i < events->count; ++i) {
         const struct reference_event *event = &events->events[i];
         for (int c = 0; c < 3; ++c)
-            if (event->head.place.x == EVENT_LEAF) {
+            if (event->head.place.EVENT_KIND == EVENT_LEAF) {
                 add_exactly(&sum[c], &rounding[c], (float)event->values[3 + c]);
-            } else if (event->head.place.x == EVENT_SAMPLE) {
+            } else if (event->head.place.EVENT_KIND == EVENT_SAMPLE) {
                 assert_true((double)(sum[c] + rounding[c]) == event->values[c]);
                 sum[c] = rounding[c] = 0;
             }
     }
     const struct reference_event *last = &events->events[events->count - 1];
-    assert_int_equal(last->head.place.x, EVENT_PIXEL);
+    assert_int_equal(last->head.place.EVENT_KIND, EVENT_PIXEL);
     for (int c = 0; c < 3; ++c)
         if ((double)picture[c] != last->values[c]) {
             print_error("%s: the picture has %.9g, the events end in %.9g\n", name, (double)picture[c],
@@ -73,10 +73,10 @@ static void check_sums(const char *name, const struct pixel_events *events, cons
 static void check_pixel(const char *name, const struct packed_scene *packed, const unsigned place[2])
 {
     const struct render_plan plan = plan_of(packed, place);
-    struct pixel_events device, reference;
-    assert_int_equal(pixel_events_on_cpu(&plan, PRECISION_FLOAT, &reference), STATUS_DONE);
-    assert_int_equal(pixel_events_on_device(test_context, &plan, reference.count, &device), STATUS_DONE);
-    struct event_difference difference = events_compare(&device, &reference);
+    struct ray_tree device, reference;
+    assert_int_equal(ray_tree_on_cpu(&plan, PRECISION_FLOAT, &reference), STATUS_DONE);
+    assert_int_equal(ray_tree_on_device(test_context, &plan, reference.count, &device), STATUS_DONE);
+    struct event_difference difference = ray_trees_compare(&device, &reference);
     if (difference.differs) {
         print_error("%s, pixel (%u, %u): %s of step %zu differs\n", name, place[0], place[1],
                     difference.field ? difference.field->name : "kind", difference.event);
@@ -87,8 +87,8 @@ static void check_pixel(const char *name, const struct packed_scene *packed, con
     assert_int_equal(render_on_device(test_context, &plan, &rendering), STATUS_DONE);
     check_sums(name, &device, rendering.image.rgb);
     image_destroy(&rendering.image);
-    pixel_events_destroy(&device);
-    pixel_events_destroy(&reference);
+    ray_tree_destroy(&device);
+    ray_tree_destroy(&reference);
 }
 
 static glob_t shipped_scenes(void)
@@ -112,18 +112,16 @@ static void same_steps(void **state)
 }
 
 /* Where no decision is close, float's every quantity is within its bound of the exact one. */
-static size_t check_bounds(const char *name, const struct pixel_events *device,
-                           const struct pixel_events *exact)
+static size_t check_bounds(const char *name, const struct ray_tree *device, const struct ray_tree *exact)
 {
     size_t at = 0, checked = 0;
     for (size_t i = 0; i < exact->count; ++i, ++at) {
-        while (device->events[at].head.place.x == EVENT_SAMPLE)
+        while (device->events[at].head.place.EVENT_KIND == EVENT_SAMPLE)
             ++at;
         const struct reference_event *event = &exact->events[i];
         assert_memory_equal(&device->events[at].head, &event->head, sizeof event->head);
-        for (const struct event_field *field = event_fields(event->head.place.x); field->name; ++field)
-            for (int c = 0;
-                 field->type == FIELD_VALUE && strcmp(field->name, "charge") != 0 && c < field->count; ++c) {
+        for (const struct event_field *field = NULL; (field = event_next_field(event, field));)
+            for (int c = 0; field->type == FIELD_VALUE && !field->not_analysed && c < field->count; ++c) {
                 double error = event_value(&device->events[at], field, c) - event_value(event, field, c);
                 ++checked;
                 if (!(fabs(error) <= event->bounds[field->first + c])) {
@@ -146,13 +144,13 @@ static void errors_within_bounds(void **state)
         struct packed_scene packed = pack(paths.gl_pathv[i], 1);
         for (unsigned k = 0; k < WIDTH * HEIGHT; k += 97) {
             const struct render_plan plan = plan_of(&packed, (const unsigned[]){k % WIDTH, k / WIDTH});
-            struct pixel_events rounded, exact;
-            assert_int_equal(pixel_events_on_cpu(&plan, PRECISION_FLOAT, &rounded), STATUS_DONE);
-            assert_int_equal(pixel_events_on_cpu(&plan, PRECISION_QUAD, &exact), STATUS_DONE);
+            struct ray_tree rounded, exact;
+            assert_int_equal(ray_tree_on_cpu(&plan, PRECISION_FLOAT, &rounded), STATUS_DONE);
+            assert_int_equal(ray_tree_on_cpu(&plan, PRECISION_QUAD, &exact), STATUS_DONE);
             if (exact.events[exact.count - 1].margin >= 1)
                 checked += check_bounds(paths.gl_pathv[i], &rounded, &exact);
-            pixel_events_destroy(&rounded);
-            pixel_events_destroy(&exact);
+            ray_tree_destroy(&rounded);
+            ray_tree_destroy(&exact);
         }
         pack_destroy(&packed);
     }
@@ -167,17 +165,17 @@ static void too_little_room(void **state)
     enum { ROOM = 7 };
     struct packed_scene packed = pack(SOURCE_DIR "/scenes/figure_4.yaml", 2);
     const struct render_plan plan = plan_of(&packed, places[0]);
-    struct pixel_events device, reference;
-    assert_int_equal(pixel_events_on_cpu(&plan, PRECISION_FLOAT, &reference), STATUS_DONE);
-    assert_int_equal(pixel_events_on_device(test_context, &plan, ROOM, &device), STATUS_DONE);
+    struct ray_tree device, reference;
+    assert_int_equal(ray_tree_on_cpu(&plan, PRECISION_FLOAT, &reference), STATUS_DONE);
+    assert_int_equal(ray_tree_on_device(test_context, &plan, ROOM, &device), STATUS_DONE);
     assert_true(reference.count > ROOM);
     assert_int_equal(device.count, ROOM);
     assert_int_equal(device.count + device.beyond, reference.count);
-    assert_false(events_compare(&device, &reference).differs);
+    assert_false(ray_trees_compare(&device, &reference).differs);
     reference.events[ROOM - 1].values[0] += 1;
-    assert_true(events_compare(&device, &reference).differs);
-    pixel_events_destroy(&device);
-    pixel_events_destroy(&reference);
+    assert_true(ray_trees_compare(&device, &reference).differs);
+    ray_tree_destroy(&device);
+    ray_tree_destroy(&reference);
     pack_destroy(&packed);
 }
 

@@ -1,74 +1,14 @@
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include <cmocka.h>
 
-#include "scene/scene.h"
-#include "scene/text.h"
+#include "scene_capture.h"
 #include "scenes_bad.h"
-
-static char messages[1 << 16]; /* what the latest read printed to standard error */
-
-static FILE *start_capture(int *saved)
-{
-    FILE *file = tmpfile();
-    assert_non_null(file);
-    fflush(stderr);
-    *saved = dup(STDERR_FILENO);
-    assert_true(dup2(fileno(file), STDERR_FILENO) >= 0);
-    return file;
-}
-
-static void end_capture(FILE *file, int saved)
-{
-    fflush(stderr);
-    dup2(saved, STDERR_FILENO);
-    close(saved);
-    rewind(file);
-    messages[fread(messages, 1, sizeof(messages) - 1, file)] = '\0';
-    fclose(file);
-}
-
-static enum status read_bytes(const char *text, size_t length, struct scene *scene)
-{
-    int saved;
-    FILE *file = start_capture(&saved);
-    char *copy = malloc(length + 1); /* without a terminator, so that a read past the end is noticed */
-    assert_non_null(copy);
-    memcpy(copy, text, length);
-    enum status status = scene_read_text("bad.yaml", copy, length, scene);
-    free(copy);
-    end_capture(file, saved);
-    return status;
-}
-
-static enum status read_text(const char *text, struct scene *scene)
-{
-    return read_bytes(text, strlen(text), scene);
-}
-
-static enum status read_file(const char *path, struct scene *scene)
-{
-    int saved;
-    FILE *file = start_capture(&saved);
-    enum status status = scene_read(path, scene);
-    end_capture(file, saved);
-    return status;
-}
-
-static void read_good(const char *text, struct scene *scene)
-{
-    if (read_text(text, scene) != STATUS_DONE)
-        fail_msg("refused: %s", messages);
-    assert_string_equal(messages, "");
-}
 
 static void assert_empty(const struct scene *scene)
 {
@@ -256,6 +196,14 @@ static void test_byte_order_mark_line_ends_and_aliases(void **state)
     assert_int_equal(scene.height, 4);
     scene_destroy(&scene);
 
+    read_good(HEAD
+              "materials: [{ name: &m A, type: mirror }, { name: &m B, type: &n matte, color: [0, 0, 0] }]\n"
+              "objects: [{ name: *n, type: sphere, center: [0, 0, 0], radius: 1, material: *m }]\n",
+              &scene);
+    assert_int_equal(scene.objects[0].material, 1);
+    assert_string_equal(scene.objects[0].name, "matte");
+    scene_destroy(&scene);
+
     assert_int_equal(read_text("\xEF\xBB\xBFwrong: 1\r\n", &scene), STATUS_REFUSED);
     assert_non_null(strstr(messages, "bad.yaml:1:1: error: unknown key"));
     assert_non_null(strstr(messages, "\nwrong: 1\n^\n"));
@@ -263,6 +211,44 @@ static void test_byte_order_mark_line_ends_and_aliases(void **state)
     read_text(HEAD "h\xC3\xBC: { x: 1 }\r\rmax_bounces:\t-1\r", &scene);
     assert_non_null(strstr(messages, "bad.yaml:5:14: error: max_bounces"));
     assert_non_null(strstr(messages, "\nmax_bounces:\t-1\n            \t^\n"));
+}
+
+static void test_long_names(void **state)
+{
+    (void)state;
+    for (size_t length = 500; length < 520; ++length) {
+        char text[1024] = HEAD "materials: [{ type: mirror, name: ";
+        struct scene scene;
+        size_t start = strlen(text);
+        memset(text + start, 'n', length);
+        strcpy(text + start + length, " }]\n");
+        if (length < 512) {
+            read_good(text, &scene);
+            assert_int_equal(strlen(scene.materials[0].name), length);
+            scene_destroy(&scene);
+        } else {
+            assert_int_equal(read_text(text, &scene), STATUS_REFUSED);
+            assert_non_null(strstr(messages, "bad.yaml:3:35: error: mirror material \"nnn"));
+            assert_non_null(strstr(messages, "nnn...\": name must be shorter than 512 bytes, is \"nnn"));
+        }
+    }
+}
+
+/* Not every "&" is an anchor, nor every bracket one that opens a list. */
+static void test_signs_in_names(void **state)
+{
+    (void)state;
+    char text[16384] = HEAD "materials:\n";
+    struct scene scene;
+    for (int i = 0; i < 150; ++i)
+        snprintf(text + strlen(text), sizeof text - strlen(text),
+                 "  - { name: Q&A & B%d, type: mirror }\n  - { name: \"[ & %d\", type: mirror }\n", i, i);
+    assert_true(strlen(text) + 1 < sizeof text);
+    read_good(text, &scene);
+    assert_int_equal(scene.material_count, 300);
+    assert_string_equal(scene.materials[0].name, "Q&A & B0");
+    assert_string_equal(scene.materials[299].name, "[ & 149");
+    scene_destroy(&scene);
 }
 
 static void test_every_error_in_file_order(void **state)
@@ -305,7 +291,8 @@ static void test_hostile_texts(void **state)
     assert_non_null(text);
     memset(text, '[', size);
     assert_int_equal(read_bytes(text, size, &scene), STATUS_REFUSED);
-    assert_true(strlen(messages) < 300);
+    assert_non_null(strstr(messages, "bad.yaml:1:10001: error: more than 10000 open brackets\n"));
+    assert_true(strlen(messages) < 400);
 
     memset(text, ' ', size);
     memcpy(text, HEAD "objects: [", strlen(HEAD "objects: ["));
@@ -315,6 +302,21 @@ static void test_hostile_texts(void **state)
     assert_int_equal(read_bytes(text, size, &scene), STATUS_REFUSED);
     assert_int_equal(count_errors(), 101);
     assert_non_null(strstr(messages, " more errors\n"));
+
+    for (size_t i = 200; i + 1 < size; i += 2)
+        memcpy(text + i, ":\n", 2);
+    assert_int_equal(read_bytes(text, size, &scene), STATUS_REFUSED);
+    for (size_t i = 200; i + 2 < size; i += 2)
+        memcpy(text + i, "-\n", 2);
+    memcpy(text, HEAD "objects:\n", strlen(HEAD "objects:\n"));
+    assert_int_equal(read_bytes(text, size, &scene), STATUS_REFUSED);
+
+    for (size_t i = 0; i + 4 < size; i += 4)
+        memcpy(text + i, "&a ,", 4);
+    memcpy(text, HEAD "a: [", strlen(HEAD "a: ["));
+    assert_int_equal(read_bytes(text, size, &scene), STATUS_REFUSED);
+    assert_non_null(strstr(messages, " error: more than 100 anchors\n"));
+    assert_int_equal(count_errors(), 1);
     free(text);
 
     static const char with_nul[] = HEAD "max_bounces: 5\0wrong: 1\n";
@@ -386,6 +388,8 @@ int main(void)
         cmocka_unit_test(test_defaults),
         cmocka_unit_test(test_every_field),
         cmocka_unit_test(test_byte_order_mark_line_ends_and_aliases),
+        cmocka_unit_test(test_long_names),
+        cmocka_unit_test(test_signs_in_names),
         cmocka_unit_test(test_every_error_in_file_order),
         cmocka_unit_test(test_hostile_texts),
         cmocka_unit_test(test_files_that_cannot_be_scenes),

@@ -67,34 +67,40 @@ static void check_same_part(const struct image *whole, const struct image *part,
         }
 }
 
-static void compare_with_whole(struct tracer_options options, struct window window)
+static void compare_with_whole(struct window window)
 {
     for (int i = 0; i < SCENES; ++i) {
-        struct image part = trace(&packed_scenes[i], options, window);
-        char what[256];
-        snprintf(what, sizeof what, "%s, group %ux%u, %u tile pixels", scene_names[i], options.group_width,
-                 options.group_height, options.tile_pixels);
-        check_same_part(&whole_pictures[i], &part, window, what);
+        struct image part = trace(&packed_scenes[i], (struct tracer_options){0}, window);
+        check_same_part(&whole_pictures[i], &part, window, scene_names[i]);
         image_destroy(&part);
     }
 }
 
-static void group_size(void **state)
+/* Lavapipe gets long groups of invocations that render many rows each; a graphics card gets square groups and
+ * a row an invocation. */
+static void group_shape(void **state)
 {
-    static const unsigned groups[][2] = {{1, 1}, {16, 4}, {64, 1}, {8, 8}, {7, 3}};
     (void)state;
-    for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i)
-        compare_with_whole((struct tracer_options){.group_width = groups[i][0], .group_height = groups[i][1]},
-                           whole_window);
+    VkPhysicalDeviceType real_type = test_context->properties.deviceType;
+    test_context->properties.deviceType = real_type == VK_PHYSICAL_DEVICE_TYPE_CPU
+                                              ? VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU
+                                              : VK_PHYSICAL_DEVICE_TYPE_CPU;
+    compare_with_whole(whole_window);
+    test_context->properties.deviceType = real_type;
 }
 
-/* Below a row, a few rows, no divisor of anything, more than the picture. */
+/* A device whose storage buffers have room for so many pixels: below a row, a few rows, no divisor of
+ * anything, more than the picture. */
 static void tile_size(void **state)
 {
-    static const unsigned tiles[] = {100, 1000, 4096, 77777};
+    static const uint32_t tiles[] = {100, 1000, 4096, 77777};
     (void)state;
-    for (size_t i = 0; i < sizeof tiles / sizeof *tiles; ++i)
-        compare_with_whole((struct tracer_options){.tile_pixels = tiles[i]}, whole_window);
+    uint32_t real_limit = test_context->properties.limits.maxStorageBufferRange;
+    for (size_t i = 0; i < sizeof tiles / sizeof *tiles; ++i) {
+        test_context->properties.limits.maxStorageBufferRange = tiles[i] * 3 * (uint32_t)sizeof(double);
+        compare_with_whole(whole_window);
+    }
+    test_context->properties.limits.maxStorageBufferRange = real_limit;
 }
 
 static void crop(void **state)
@@ -106,7 +112,7 @@ static void crop(void **state)
                                             {200, 0, 1, HEIGHT}};
     (void)state;
     for (size_t i = 0; i < sizeof windows / sizeof *windows; ++i)
-        compare_with_whole((struct tracer_options){0}, windows[i]);
+        compare_with_whole(windows[i]);
 }
 
 /* A device whose uniform buffers have no room for a single sphere. */
@@ -115,8 +121,19 @@ static void scene_in_storage_buffers(void **state)
     (void)state;
     uint32_t real_limit = test_context->properties.limits.maxUniformBufferRange;
     test_context->properties.limits.maxUniformBufferRange = 1;
-    compare_with_whole((struct tracer_options){0}, whole_window);
+    compare_with_whole(whole_window);
     test_context->properties.limits.maxUniformBufferRange = real_limit;
+}
+
+/* A device whose memory the host reads slowly: pictures are copied to other memory for it. */
+static void picture_is_copied_for_the_host(void **state)
+{
+    (void)state;
+    const VkPhysicalDeviceMemoryProperties real_memory = test_context->memory;
+    for (uint32_t i = 0; i < real_memory.memoryTypeCount; ++i)
+        test_context->memory.memoryTypes[i].propertyFlags &= ~(VkFlags)VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    compare_with_whole(whole_window);
+    test_context->memory = real_memory;
 }
 
 /* What fast mode may change is rounding: few pixels come out visibly different (those that look at an edge).
@@ -150,6 +167,78 @@ static void ray_counts(void **state)
     }
 }
 
+/* One pixel's shadow rays are more than 2^24, the first number that float cannot count on from, and odd. */
+static void ray_counts_of_one_pixel(void **state)
+{
+    enum { SAMPLES = 513, LIGHT_SAMPLES = 32767 };
+    (void)state;
+    struct scene scene = test_read("scenes/figure_2b.yaml");
+    struct packed_scene packed;
+    struct picture_settings settings = test_settings(&scene);
+    settings.samples = SAMPLES;
+    settings.light_samples = LIGHT_SAMPLES;
+    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    scene_destroy(&scene);
+    struct render_plan plan = {.scene = &packed, .window = {300, 350, 1, 1}, .quiet = true};
+    struct reference_rays rays = {1, 2, 3};
+    assert_int_equal(rays_on_device(test_context, &plan, &rays), STATUS_DONE);
+    assert_int_equal(rays.primary, 1 + SAMPLES);
+    assert_int_equal(rays.secondary, 2);
+    assert_int_equal(rays.shadow, 3 + SAMPLES * LIGHT_SAMPLES);
+    pack_destroy(&packed);
+}
+
+/* The linker puts this in the place of Vulkan's function. The call after so many is to fail; negative: none.
+ */
+static int pipelines_before_failure = -1;
+VkResult __real_vkCreateComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
+                                         const VkComputePipelineCreateInfo *infos,
+                                         const VkAllocationCallbacks *allocator, VkPipeline *pipelines);
+VkResult __wrap_vkCreateComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
+                                         const VkComputePipelineCreateInfo *infos,
+                                         const VkAllocationCallbacks *allocator, VkPipeline *pipelines);
+VkResult __wrap_vkCreateComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
+                                         const VkComputePipelineCreateInfo *infos,
+                                         const VkAllocationCallbacks *allocator, VkPipeline *pipelines)
+{
+    if (pipelines_before_failure < 0 || pipelines_before_failure-- > 0)
+        return __real_vkCreateComputePipelines(device, cache, count, infos, allocator, pipelines);
+    return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+}
+
+/* Ray trees too large for one of lavapipe's dispatches need a second pipeline. Where it cannot be built, the
+ * tracer keeps its first, and the next picture succeeds. */
+static void failed_second_pipeline(void **state)
+{
+    (void)state;
+    if (test_context->driver.driverID != VK_DRIVER_ID_MESA_LLVMPIPE)
+        skip();
+    const struct window window = {14, 10, 1, 1};
+    struct scene scene = test_read("scenes/hard/diamond.yaml");
+    struct packed_scene packed;
+    const struct picture_settings settings = {
+        .width = 30, .height = 20, .max_bounces = 64, .samples = 1, .light_samples = 1};
+    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    scene_destroy(&scene);
+    struct tracer *tracer;
+    struct image image;
+    struct progress progress;
+    double milliseconds;
+    assert_int_equal(tracer_create(test_context, &packed, &(struct tracer_options){0}, &tracer), STATUS_DONE);
+    assert_int_equal(image_create(window.width, window.height, &image), STATUS_DONE);
+    progress_start(&progress, "", 1, true);
+    pipelines_before_failure = 0;
+    assert_int_equal(tracer_render(tracer, window, &image, &progress, &milliseconds), STATUS_UNABLE);
+    assert_int_equal(pipelines_before_failure, -1); /* it has failed there */
+    assert_int_equal(tracer_render(tracer, window, &image, &progress, &milliseconds), STATUS_DONE);
+    struct rendering reference = test_render(&packed, TEST_FLOAT, window);
+    assert_memory_equal(image.rgb, reference.image.rgb, 3 * sizeof(float));
+    image_destroy(&reference.image);
+    image_destroy(&image);
+    tracer_destroy(&tracer);
+    pack_destroy(&packed);
+}
+
 static int setup(void **state)
 {
     if (test_open_device(state) != 0)
@@ -173,12 +262,15 @@ static int teardown(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(group_size),
+        cmocka_unit_test(group_shape),
         cmocka_unit_test(tile_size),
         cmocka_unit_test(crop),
         cmocka_unit_test(scene_in_storage_buffers),
+        cmocka_unit_test(picture_is_copied_for_the_host),
         cmocka_unit_test(fast_mode_is_close),
         cmocka_unit_test(ray_counts),
+        cmocka_unit_test(ray_counts_of_one_pixel),
+        cmocka_unit_test(failed_second_pipeline),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/prctl.h>
@@ -43,7 +44,10 @@ static inline pid_t xvfb_start(void)
     if (length < 2)
         return -1;
     name[length] = '\0';
-    return setenv("DISPLAY", name, 1) == 0 ? server : -1;
+    /* some versions of GLFW try Wayland first */
+    bool set = setenv("DISPLAY", name, 1) == 0 && setenv("XDG_RUNTIME_DIR", "/tmp", 1) == 0 &&
+               unsetenv("WAYLAND_DISPLAY") == 0 && unsetenv("XDG_SESSION_TYPE") == 0;
+    return set ? server : -1;
 }
 
 static inline void xvfb_kill(pid_t server)

@@ -1,59 +1,68 @@
 #include "base/number.h"
 
+#include <errno.h>
 #include <float.h>
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static size_t skip_digits(const char *text, size_t length, size_t at)
+/* Whether there are digits at *at, which then moves behind them. */
+static bool skip_digits(const char **at)
 {
-    while (at < length && text[at] >= '0' && text[at] <= '9')
-        at++;
-    return at;
+    const size_t count = strspn(*at, "0123456789");
+    *at += count;
+    return count > 0;
 }
 
-static size_t skip_sign(const char *text, size_t length, size_t at)
+static bool skip_sign_and_digits(const char **at)
 {
-    return at < length && (text[at] == '+' || text[at] == '-') ? at + 1 : at;
+    *at += **at == '+' || **at == '-';
+    return skip_digits(at);
 }
 
-static bool is_decimal(const char *text, size_t length)
+static bool is_decimal(const char *at)
 {
-    size_t start = skip_sign(text, length, 0);
-    size_t at = skip_digits(text, length, start);
-    if (at == start)
+    if (!skip_sign_and_digits(&at))
         return false;
-    if (at < length && text[at] == '.') {
-        start = at + 1;
-        at = skip_digits(text, length, start);
-        if (at == start)
-            return false;
-    }
-    if (at < length && (text[at] == 'e' || text[at] == 'E')) {
-        start = skip_sign(text, length, at + 1);
-        at = skip_digits(text, length, start);
-        if (at == start)
-            return false;
-    }
-    return at == length;
+    if (*at == '.' && (++at, !skip_digits(&at)))
+        return false;
+    if ((*at == 'e' || *at == 'E') && (++at, !skip_sign_and_digits(&at)))
+        return false;
+    return *at == '\0';
+}
+
+/* Copies the text with a 0 at its end; false where it is too long or has one inside. */
+static bool copy_text(const char *text, size_t length, char copy[static NUMBER_MAX_LENGTH + 1])
+{
+    if (length > NUMBER_MAX_LENGTH)
+        return false;
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    return strlen(copy) == length;
 }
 
 bool parse_double(const char *text, size_t length, double *value)
 {
     char copy[NUMBER_MAX_LENGTH + 1];
-    if (length > NUMBER_MAX_LENGTH || !is_decimal(text, length))
+    if (!copy_text(text, length, copy) || !is_decimal(copy))
         return false;
-    memcpy(copy, text, length);
-    copy[length] = '\0';
-
-    locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!c_locale)
-        return false;
-    double parsed = strtod_l(copy, NULL, c_locale);
-    freelocale(c_locale);
+    const double parsed = strtod(copy, NULL);
     if (!isfinite(parsed))
+        return false;
+    *value = parsed;
+    return true;
+}
+
+bool parse_unsigned(const char *text, size_t length, unsigned long max, unsigned long *value)
+{
+    char copy[NUMBER_MAX_LENGTH + 1];
+    const char *end = copy;
+    if (!copy_text(text, length, copy) || !skip_digits(&end) || *end)
+        return false;
+    errno = 0;
+    const unsigned long parsed = strtoul(copy, NULL, 10);
+    if (errno != 0 || parsed > max)
         return false;
     *value = parsed;
     return true;
@@ -66,21 +75,14 @@ static const char *format(double value, bool as_float, char text[static NUMBER_T
         snprintf(text, NUMBER_TEXT, "%g", value);
         return text;
     }
-    locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0), own_locale = (locale_t)0;
-    if (c_locale)
-        own_locale = uselocale(c_locale);
     int digits = 1;
     do
         snprintf(text, NUMBER_TEXT, "%.*e", digits - 1, value);
     while ((as_float ? (double)strtof(text, NULL) : strtod(text, NULL)) != value &&
            ++digits <= DBL_DECIMAL_DIG);
-    long exponent = strtol(strchr(text, 'e') + 1, NULL, 10);
+    const long exponent = strtol(strchr(text, 'e') + 1, NULL, 10);
     if (exponent >= -5 && exponent < DBL_DIG)
         snprintf(text, NUMBER_TEXT, "%.*f", (int)fmax(0, (double)(digits - 1 - exponent)), value);
-    if (c_locale) {
-        uselocale(own_locale);
-        freelocale(c_locale);
-    }
     return text;
 }
 
@@ -92,19 +94,4 @@ const char *format_double(double value, char text[static NUMBER_TEXT])
 const char *format_number(double value, char text[static NUMBER_TEXT])
 {
     return format(value, (double)(float)value == value, text);
-}
-
-bool parse_unsigned(const char *text, size_t length, unsigned long max, unsigned long *value)
-{
-    if (length == 0 || length > NUMBER_MAX_LENGTH || skip_digits(text, length, 0) != length)
-        return false;
-    unsigned long parsed = 0;
-    for (size_t i = 0; i < length; i++) {
-        unsigned long digit = (unsigned long)(text[i] - '0');
-        if (digit > max || parsed > (max - digit) / 10)
-            return false;
-        parsed = parsed * 10 + digit;
-    }
-    *value = parsed;
-    return true;
 }

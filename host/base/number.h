@@ -4,8 +4,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Strict decimal numbers, the same in every locale. The whole text must be the number: no blanks, no
- * hexadecimal, no "inf" or "nan". On failure these return false and leave *value alone. */
+/* Strict decimal numbers, in the C locale, which the program never leaves. The whole text must be the number:
+ * no blanks, no hexadecimal, no "inf" or "nan". On failure these return false and leave *value alone. */
 
 enum { NUMBER_MAX_LENGTH = 500 }; /* characters; longer texts are not numbers */
 

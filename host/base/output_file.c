@@ -2,10 +2,8 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -21,30 +19,28 @@ static char *find_target(const char *path, int *mode)
 {
     struct stat info;
     *mode = -1;
-    if (lstat(path, &info) != 0) {
-        if (errno != ENOENT) {
-            report(path, "cannot write", errno);
-            return NULL;
-        }
-        char *copy = strdup(path);
-        if (!copy)
-            report(path, "cannot write", errno);
-        return copy;
-    }
-    if (stat(path, &info) != 0) {
-        report(path, "cannot follow the symbolic link", errno);
+    const bool exists = lstat(path, &info) == 0;
+    char *target = exists || errno != ENOENT ? realpath(path, NULL) : strdup(path);
+    if (!target) {
+        report(path, exists && S_ISLNK(info.st_mode) ? "cannot follow the symbolic link" : "cannot write",
+               errno);
         return NULL;
     }
-    if (!S_ISREG(info.st_mode)) {
-        log_error("%s: cannot write: %s", path,
-                  S_ISDIR(info.st_mode) ? strerror(EISDIR) : "not a regular file");
+    if (!exists)
+        return target;
+    const char *problem = NULL;
+    if (stat(target, &info) != 0)
+        problem = strerror(errno);
+    else if (!S_ISREG(info.st_mode))
+        problem = S_ISDIR(info.st_mode) ? strerror(EISDIR) : "not a regular file";
+    else if (faccessat(AT_FDCWD, target, W_OK, AT_EACCESS) != 0)
+        problem = strerror(errno);
+    if (problem) {
+        log_error("%s: cannot write: %s", path, problem);
+        free(target);
         return NULL;
     }
     *mode = (int)(info.st_mode & 0777);
-    bool writable = faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) == 0;
-    char *target = writable ? realpath(path, NULL) : NULL;
-    if (!target)
-        report(path, "cannot write", errno);
     return target;
 }
 
@@ -52,31 +48,21 @@ static char *find_target(const char *path, int *mode)
  * (umask, default ACL) of any new file, which mkstemp() does not. -1 and errno on failure. */
 static int create_beside(const char *target, char **temporary)
 {
-    const char *slash = strrchr(target, '/');
-    const char *name = slash ? slash + 1 : target;
-    int folder_length = (int)(name - target);
-
-    for (int attempt = 0; attempt < 100; attempt++) {
-        uint32_t suffix;
-        if (getrandom(&suffix, sizeof suffix, 0) != (ssize_t)sizeof suffix)
-            return -1;
+    const char *slash = strrchr(target, '/'), *name = slash ? slash + 1 : target;
+    int fd = -1;
+    errno = EEXIST;
+    for (int attempt = 0; fd < 0 && errno == EEXIST && attempt < 100; attempt++) {
+        free(*temporary);
         /* 200: names end at 255 bytes. */
-        if (asprintf(temporary, "%.*s.%.200s.%08" PRIx32, folder_length, target, name, suffix) < 0) {
+        if (asprintf(temporary, "%.*s.%.200s.%ld.%d", (int)(name - target), target, name, (long)getpid(),
+                     attempt) < 0) {
             *temporary = NULL;
             errno = ENOMEM;
-            return -1;
+            break;
         }
-        int fd = open(*temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (fd >= 0)
-            return fd;
-        int error = errno;
-        free(*temporary);
-        *temporary = NULL;
-        errno = error;
-        if (error != EEXIST)
-            return -1;
+        fd = open(*temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     }
-    return -1;
+    return fd;
 }
 
 static void release(struct output_file *file)
@@ -125,43 +111,27 @@ bool output_file_write(struct output_file *file, const void *bytes, size_t size)
 
 bool output_file_write_at(struct output_file *file, const void *bytes, size_t size, uint64_t offset)
 {
-    const char *rest = bytes;
-    while (size > 0 && file->error == 0) {
-        ssize_t written = pwrite(fileno(file->stream), rest, size, (off_t)offset);
-        if (written > 0) {
-            rest += written;
-            size -= (size_t)written;
-            offset += (uint64_t)written;
-        } else if (written == 0 || errno != EINTR) {
-            file->error = written == 0 ? EIO : errno;
-        }
-    }
-    return file->error == 0;
+    if (file->error == 0 && fseeko(file->stream, (off_t)offset, SEEK_SET) != 0)
+        file->error = errno;
+    return output_file_write(file, bytes, size);
 }
 
 enum status output_file_commit(struct output_file *file)
 {
-    const char *failed = NULL;
+    const char *failed = "cannot write";
     int error = file->error;
-    if (error == 0 && ferror(file->stream))
-        error = EIO;
-    if (error != 0) {
-        failed = "cannot write";
-    } else if (fflush(file->stream) != 0 || (fsync(fileno(file->stream)) != 0 && errno != EINVAL)) {
-        failed = "cannot write"; /* EINVAL: a file system without fsync */
+    errno = EIO; /* where a write failed that nobody noticed */
+    if (error == 0 && (ferror(file->stream) || fflush(file->stream) != 0 ||
+                       (fsync(fileno(file->stream)) != 0 && errno != EINVAL))) /* a file system without it */
         error = errno;
-    }
-    if (fclose(file->stream) != 0 && !failed) {
-        failed = "cannot write";
+    if (fclose(file->stream) != 0 && error == 0)
         error = errno;
-    }
-    if (!failed && rename(file->temporary, file->target) != 0) {
+    if (error == 0 && rename(file->temporary, file->target) != 0) {
         failed = "cannot put the finished file in place";
         error = errno;
     }
-
     enum status status = STATUS_DONE;
-    if (failed) {
+    if (error != 0) {
         unlink(file->temporary);
         status = report(file->path, failed, error);
     }

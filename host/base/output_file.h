@@ -8,8 +8,8 @@
 
 #include "base/status.h"
 
-/* A file that appears whole or not at all: it is written under a temporary name (.NAME.XXXXXXXX) in the
- * target's directory and renamed over the target once it is safely on the disk.
+/* A file that appears whole or not at all: it is written under a temporary name (.NAME.PROCESS.ATTEMPT) in
+ * the target's directory and renamed over the target once it is safely on the disk.
  *
  * A target that is a symbolic link is followed: the file it leads to is replaced, the link stays. A
  * target that exists and is no regular file (directory, device, fifo) is refused, since nothing there

@@ -1,11 +1,14 @@
 #include "base/progress.h"
 
+#include <stdatomic.h>
 #include <stdio.h>
 #include <unistd.h>
 
 #include "base/clock.h"
 
 enum { BAR_WIDTH = 40 };
+
+static atomic_bool visible;
 
 void progress_start(struct progress *progress, const char *label, uint64_t total, bool quiet)
 {
@@ -24,17 +27,22 @@ void progress_advance(struct progress *progress, uint64_t amount)
     if (!progress->enabled || elapsed_ms < 500 || progress->done == 0)
         return;
     double fraction = (double)progress->done / (double)progress->total;
-    int filled = (int)(fraction * BAR_WIDTH);
+    int filled = (int)(fraction * (double)BAR_WIDTH);
     fprintf(stderr, "\r%s [%.*s%*s] %3.0f %%  %.0f s left \033[K", progress->label, filled,
             "########################################", BAR_WIDTH - filled, "", fraction * 100,
             elapsed_ms / 1000 * (1 - fraction) / fraction);
     fflush(stderr);
-    progress->visible = true;
+    visible = true;
+}
+
+void progress_wipe(void)
+{
+    if (atomic_exchange(&visible, false))
+        fputs("\r\033[K", stderr);
 }
 
 void progress_end(struct progress *progress)
 {
-    if (progress->visible)
-        fputs("\r\033[K", stderr);
-    progress->visible = false;
+    progress->enabled = false;
+    progress_wipe();
 }

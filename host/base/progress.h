@@ -9,14 +9,17 @@ struct progress {
     const char *label;
     uint64_t done, total;
     double start_ms;
-    bool visible, enabled;
+    bool enabled;
 };
 
 /* label must outlive the progress. Quiet (-q) shows nothing. */
 void progress_start(struct progress *progress, const char *label, uint64_t total, bool quiet);
 void progress_advance(struct progress *progress, uint64_t amount);
 
-/* Wipes the bar, done or not. */
+/* Wipes the bar; the next advance shows it again. Messages (status.h) do so before they appear. */
+void progress_wipe(void);
+
+/* Wipes the bar for good, done or not. */
 void progress_end(struct progress *progress);
 
 #endif

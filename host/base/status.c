@@ -3,11 +3,14 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "base/progress.h"
+
 static int log_verbosity;
 
 static void print_message(const char *severity, const char *format, va_list arguments)
 {
     flockfile(stderr);
+    progress_wipe();
     fprintf(stderr, "vkwhitted: %s", severity);
     vfprintf(stderr, format, arguments);
     fputc('\n', stderr);

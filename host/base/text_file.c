@@ -2,43 +2,57 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Reads to the end of the file, whatever its size was. NULL and errno on failure. */
-static char *read_open_file(int file, size_t size, size_t most, size_t *length)
+#include "base/interrupt.h"
+
+/* Waits for a pipe or terminal with poll(), which returns after a signal: read() would wait on. */
+static ssize_t read_some(int file, char *bytes, size_t size)
 {
-    char *text = malloc(size + 1);
-    *length = 0;
-    while (text) {
-        ssize_t got = read(file, text + *length, size - *length);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got < 0 || *length + (size_t)got > most) {
-            int error = got < 0 ? errno : EFBIG;
-            free(text);
-            errno = error;
-            return NULL;
-        }
-        *length += (size_t)got;
-        if (got == 0) {
-            text[*length] = 0;
-            return text;
-        }
-        if (*length < size)
-            continue;
-        size *= 2;
-        char *larger = realloc(text, size + 1);
-        if (!larger)
-            free(text);
-        text = larger;
-    }
-    errno = ENOMEM;
-    return NULL;
+    struct pollfd wanted = {.fd = file, .events = POLLIN};
+    ssize_t got;
+    do
+        got = poll(&wanted, 1, -1) < 0 ? -1 : read(file, bytes, size);
+    while (got < 0 && (errno == EINTR || errno == EAGAIN) && !interrupt_requested());
+    return got;
 }
 
-char *file_text_read(const char *path, size_t most, size_t *length)
+/* Reads to the end of the file, whatever its size was. NULL and errno on failure. */
+static char *read_open_file(int file, size_t most, size_t *length)
+{
+    char *text = NULL;
+    size_t room = 0, size = 0;
+    ssize_t got = 1;
+    while (got > 0) {
+        if (size == room) {
+            room = room ? 2 * room : 4096;
+            char *larger = realloc(text, room + 1);
+            if (!larger)
+                break;
+            text = larger;
+        }
+        got = read_some(file, text + size, room - size);
+        size += got > 0 ? (size_t)got : 0;
+        if (size > most) {
+            errno = EFBIG;
+            break;
+        }
+    }
+    if (got != 0) {
+        int error = errno;
+        free(text);
+        errno = error;
+        return NULL;
+    }
+    text[size] = 0;
+    *length = size;
+    return text;
+}
+
+char *text_file_read(const char *path, bool regular_only, size_t most, size_t *length)
 {
     struct stat about;
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
@@ -46,9 +60,12 @@ char *file_text_read(const char *path, size_t most, size_t *length)
         return NULL;
     char *text = NULL;
     if (fstat(file, &about) == 0) {
-        errno = S_ISDIR(about.st_mode) ? EISDIR : EINVAL;
-        if (S_ISREG(about.st_mode))
-            text = read_open_file(file, 4096, most, length);
+        if (S_ISDIR(about.st_mode))
+            errno = EISDIR;
+        else if (regular_only && !S_ISREG(about.st_mode))
+            errno = EINVAL;
+        else
+            text = read_open_file(file, most, length);
     }
     int error = errno;
     close(file);

@@ -4,34 +4,29 @@
 #include <string.h>
 
 #include "base/statistics.h"
-#include "bench/json_value.h"
-
-enum { MAX_POINTS = 256 };
+#include "bench/document.h"
 
 static const double standard_errors = 4, least_change = 0.05, printing_error = 1e-6;
 
-/* Null stands for what is not finite. */
-static double number_of(const json_t *object, const char *key)
-{
-    double value = json_number_at(object, key);
-    return isnan(value) ? INFINITY : value;
-}
+/* The variance of a median is so many times that of the values, by their number. */
+static const double median_factor = 1.2533 * 1.2533;
+
+/* The distance of the quartiles in standard deviations. */
+static const double quartile_distance = 1.349;
 
 enum status bench_document_read(const char *path, json_t **document)
 {
     json_error_t error;
     *document = json_load_file(path, JSON_REJECT_DUPLICATES, &error);
-    if (!*document) {
-        if (error.line > 0)
-            log_error("%s:%d:%d: %s", path, error.line, error.column, error.text);
-        else
-            log_error("%s: %s", path, error.text);
-        return STATUS_REFUSED;
-    }
     if (json_is_array(json_object_get(*document, "scenes")) &&
         json_is_object(json_object_get(*document, "machine")))
         return STATUS_DONE;
-    log_error("%s: expected a file that bench --json wrote", path);
+    if (*document)
+        log_error("%s: expected a file that bench --json wrote", path);
+    else if (error.line > 0)
+        log_error("%s:%d:%d: %s", path, error.line, error.column, error.text);
+    else
+        log_error("%s: %s", path, error.text);
     json_decref(*document);
     *document = NULL;
     return STATUS_REFUSED;
@@ -39,122 +34,119 @@ enum status bench_document_read(const char *path, json_t **document)
 
 static bool same_text(const json_t *a, const json_t *b, const char *key)
 {
-    return strcmp(json_text_at(a, key), json_text_at(b, key)) == 0;
+    return strcmp(bench_text(a, key), bench_text(b, key)) == 0;
 }
 
-static const json_t *find_scene(const json_t *document, const json_t *like)
+/* The element of the array with the same texts at both keys; NULL if there is none. */
+static const json_t *find(const json_t *array, const json_t *like, const char *key, const char *other_key)
 {
-    const json_t *scene;
+    const json_t *element;
     size_t i;
-    json_array_foreach(json_object_get(document, "scenes"), i, scene)
+    json_array_foreach(array, i, element)
     {
-        if (same_text(scene, like, "scene"))
-            return scene;
+        if (same_text(element, like, key) && same_text(element, like, other_key))
+            return element;
     }
     return NULL;
 }
 
-static const json_t *find_point(const json_t *scene, const json_t *like)
-{
-    const json_t *point;
-    size_t i;
-    json_array_foreach(json_object_get(scene, "points"), i, point)
-    {
-        if (same_text(point, like, "family") && same_text(point, like, "options"))
-            return point;
-    }
-    return NULL;
-}
+/* A setting in both benches. */
+struct pair {
+    const json_t *old, *new;
+    double change; /* logarithm of new time by old time */
+    bool on_cpu;
+};
+
+/* How the machine as a whole has changed from one bench to the other, as the settings of one backend tell. */
+struct drift {
+    double change, variance; /* 0 where they do not tell */
+};
+
+struct comparing {
+    FILE *stream;
+    bool times;              /* can be compared */
+    const json_t *old, *new; /* the scene */
+    struct pair pairs[BENCH_MAX_SETTINGS];
+    size_t count;
+    double old_spread, new_spread; /* typical ones, relative */
+    struct drift drifts[2];        /* of the device, of the CPU */
+    size_t compared, worse, better;
+};
 
 /* Distance of the quartiles by the median. */
 static double relative_spread(const json_t *point)
 {
     const json_t *quartiles = json_object_get(point, "time_quartiles_ms");
-    double spread =
-        (json_number_value(json_array_get(quartiles, 1)) - json_number_value(json_array_get(quartiles, 0))) /
-        number_of(point, "time_ms");
+    double low = json_number_value(json_array_get(quartiles, 0));
+    double spread = (json_number_value(json_array_get(quartiles, 1)) - low) / bench_number(point, "time_ms");
     return spread >= 0 && isfinite(spread) ? spread : 0;
 }
 
-static double typical_spread(const json_t *scene)
+static double median(double *values, size_t count)
 {
-    double spreads[MAX_POINTS];
-    size_t count = 0, i;
-    const json_t *point;
-    json_array_foreach(json_object_get(scene, "points"), i, point)
-    {
-        if (count < MAX_POINTS)
-            spreads[count++] = relative_spread(point);
-    }
-    sort_doubles(spreads, count);
-    return sorted_quantile(spreads, count, 0.5);
+    sort_doubles(values, count);
+    return sorted_quantile(values, count, 0.5);
 }
 
-/* Squared, relative to the median. */
-static double median_variance(const json_t *point, double typical)
+static struct drift find_drift(const struct comparing *comparing, bool on_cpu)
 {
-    double deviation = fmax(relative_spread(point), typical) / 1.349;
-    double runs = fmax(number_of(point, "runs"), 1);
-    return 1.2533 * 1.2533 * deviation * deviation / runs;
-}
-
-/* How the machine as a whole has changed from one bench to the other, as the settings of one backend tell. */
-struct drift {
-    bool known;
-    double log_ratio, variance; /* of times */
-};
-
-enum { VULKAN, CPU, BACKENDS };
-
-struct comparing {
-    const json_t *old_scene, *new_scene;
-    bool times; /* can be compared */
-    double old_typical, new_typical;
-    struct drift drifts[BACKENDS];
-    size_t compared, worse, better;
-    FILE *stream;
-};
-
-static void print_change(const struct comparing *comparing, const json_t *point, const char *what,
-                         double old_value, double new_value, const char *unit)
-{
-    const char *options = json_text_at(point, "options");
-    fprintf(comparing->stream, "%s: %s: %s: %.3g%s, was %.3g%s\n",
-            json_text_at(comparing->new_scene, "scene"), *options ? options : "as the scene says", what,
-            new_value, unit, old_value, unit);
-}
-
-static int backend_of(const json_t *point)
-{
-    return strcmp(json_text_at(point, "backend"), "cpu") == 0 ? CPU : VULKAN;
-}
-
-static double log_ratio(const json_t *old, const json_t *new)
-{
-    return log(number_of(new, "time_ms") / number_of(old, "time_ms"));
-}
-
-/* The median over the settings of a backend, and its variance. */
-static struct drift find_drift(const struct comparing *comparing, int backend)
-{
-    double ratios[MAX_POINTS], sum = 0, squares = 0;
-    size_t count = 0, i;
-    const json_t *point;
-    json_array_foreach(json_object_get(comparing->new_scene, "points"), i, point)
-    {
-        const json_t *old = find_point(comparing->old_scene, point);
-        double ratio = old && backend_of(point) == backend ? log_ratio(old, point) : NAN;
-        if (!isfinite(ratio) || count == MAX_POINTS)
+    double changes[BENCH_MAX_SETTINGS], sum = 0, squares = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < comparing->count; ++i) {
+        const struct pair *pair = &comparing->pairs[i];
+        if (pair->on_cpu != on_cpu || !isfinite(pair->change))
             continue;
-        ratios[count++] = ratio;
-        sum += ratio;
-        squares += ratio * ratio;
+        changes[count++] = pair->change;
+        sum += pair->change;
+        squares += pair->change * pair->change;
     }
     if (count < 2)
-        return (struct drift){.known = false};
-    sort_doubles(ratios, count);
+        return (struct drift){0, 0};
     double n = (double)count, variance = fmax(squares - sum * sum / n, 0) / (n - 1);
-    return (struct drift){true, sorted_quantile(ratios, count, 0.5), 1.2533 * 1.2533 * variance / n};
+    return (struct drift){median(changes, count), median_factor * variance / n};
+}
+
+static void find_pairs(struct comparing *comparing)
+{
+    double old_spreads[BENCH_MAX_SETTINGS], new_spreads[BENCH_MAX_SETTINGS];
+    const json_t *point;
+    size_t i;
+    comparing->count = 0;
+    json_array_foreach(json_object_get(comparing->new, "points"), i, point)
+    {
+        const json_t *old = find(json_object_get(comparing->old, "points"), point, "family", "options");
+        if (!old || comparing->count == BENCH_MAX_SETTINGS)
+            continue;
+        old_spreads[comparing->count] = relative_spread(old);
+        new_spreads[comparing->count] = relative_spread(point);
+        comparing->pairs[comparing->count++] = (struct pair){
+            .old = old,
+            .new = point,
+            .change = log(bench_number(point, "time_ms") / bench_number(old, "time_ms")),
+            .on_cpu = strcmp(bench_text(point, "backend"), "cpu") == 0,
+        };
+    }
+    comparing->old_spread = median(old_spreads, comparing->count);
+    comparing->new_spread = median(new_spreads, comparing->count);
+    for (int on_cpu = 0; on_cpu < 2; ++on_cpu)
+        comparing->drifts[on_cpu] = find_drift(comparing, on_cpu);
+}
+
+static void note_change(struct comparing *comparing, const struct pair *pair, bool worse, const char *what,
+                        double old_value, double new_value, const char *unit)
+{
+    const char *options = bench_text(pair->new, "options");
+    fprintf(comparing->stream, "%s: %s: %s: %.3g%s, was %.3g%s\n", bench_text(comparing->new, "scene"),
+            *options ? options : "as the scene says", what, new_value, unit, old_value, unit);
+    comparing->worse += worse;
+    comparing->better += !worse;
+}
+
+/* Of the point's median time, relative to it. */
+static double time_variance(const json_t *point, double typical_spread)
+{
+    double deviation = fmax(relative_spread(point), typical_spread) / quartile_distance;
+    return median_factor * deviation * deviation / fmax(bench_number(point, "runs"), 1);
 }
 
 static bool is_beyond(double change, double variance)
@@ -162,103 +154,83 @@ static bool is_beyond(double change, double variance)
     return fabs(change) > fmax(log1p(least_change), standard_errors * sqrt(variance));
 }
 
-static void compare_times(struct comparing *comparing, const json_t *old, const json_t *new)
+static void compare_times(struct comparing *comparing, const struct pair *pair)
 {
-    double change = log_ratio(old, new);
+    const struct drift *control = &comparing->drifts[!pair->on_cpu];
     double variance =
-        median_variance(old, comparing->old_typical) + median_variance(new, comparing->new_typical);
-    const struct drift *control = &comparing->drifts[backend_of(new) == CPU ? VULKAN : CPU];
-    double own = change - control->log_ratio;
-    if (!is_beyond(change, variance) ||
-        (control->known && (own * change < 0 || !is_beyond(own, variance + control->variance))))
+        time_variance(pair->old, comparing->old_spread) + time_variance(pair->new, comparing->new_spread);
+    double own = pair->change - control->change;
+    if (!is_beyond(pair->change, variance) || own * pair->change < 0 ||
+        !is_beyond(own, variance + control->variance))
         return;
-    print_change(comparing, new, change > 0 ? "SLOWER" : "faster", number_of(old, "time_ms"),
-                 number_of(new, "time_ms"), " ms");
-    comparing->worse += change > 0;
-    comparing->better += change < 0;
+    note_change(comparing, pair, pair->change > 0, pair->change > 0 ? "SLOWER" : "faster",
+                bench_number(pair->old, "time_ms"), bench_number(pair->new, "time_ms"), " ms");
 }
 
-static void compare_errors(struct comparing *comparing, const json_t *old, const json_t *new)
+static void compare_errors(struct comparing *comparing, const struct pair *pair)
 {
-    static const struct {
-        const char *key, *name;
-    } measures[] = {{"rmse", "RMSE"}, {"max", "largest error"}};
-    const json_t *old_error = json_object_get(old, "error"), *new_error = json_object_get(new, "error");
+    static const char *const keys[] = {"rmse", "max"};
+    static const char *const texts[][2] = {{"more accurate, RMSE", "LESS ACCURATE, RMSE"},
+                                           {"more accurate, largest error", "LESS ACCURATE, largest error"}};
+    const json_t *old = json_object_get(pair->old, "error"), *new = json_object_get(pair->new, "error");
     bool sampled =
-        number_of(new, "samples") > 1 || json_is_true(json_object_get(comparing->new_scene, "sampled"));
-    double noise = sampled ? standard_errors * hypot(number_of(old_error, "rmse_uncertainty"),
-                                                     number_of(new_error, "rmse_uncertainty"))
+        bench_number(pair->new, "samples") > 1 || json_is_true(json_object_get(comparing->new, "sampled"));
+    double noise = sampled ? standard_errors * hypot(bench_number(old, "rmse_uncertainty"),
+                                                     bench_number(new, "rmse_uncertainty"))
                            : 0;
-    for (size_t i = 0; i < (sampled ? 1 : 2); ++i) {
-        double before = number_of(old_error, measures[i].key), after = number_of(new_error, measures[i].key);
+    for (int i = 0; i < (sampled ? 1 : 2); ++i) {
+        double before = bench_number(old, keys[i]), after = bench_number(new, keys[i]);
         if (before == after || !(fabs(after - before) > fmax(noise, printing_error * before)))
             continue;
-        char what[64];
-        snprintf(what, sizeof what, "%s, %s", after > before ? "LESS ACCURATE" : "more accurate",
-                 measures[i].name);
-        print_change(comparing, new, what, before, after, "");
-        comparing->worse += after > before;
-        comparing->better += after < before;
+        note_change(comparing, pair, after > before, texts[i][after > before], before, after, "");
         return;
     }
-}
-
-static bool same_truth(const json_t *a, const json_t *b, bool filtered)
-{
-    return same_text(a, b, filtered ? "truth_samples" : "truth") &&
-           number_of(a, "width") == number_of(b, "width") && number_of(a, "height") == number_of(b, "height");
 }
 
 static void compare_scenes(struct comparing *comparing)
 {
-    const json_t *point;
-    size_t i;
-    comparing->old_typical = typical_spread(comparing->old_scene);
-    comparing->new_typical = typical_spread(comparing->new_scene);
-    for (int backend = 0; backend < BACKENDS; ++backend)
-        comparing->drifts[backend] = find_drift(comparing, backend);
-    const char *name = json_text_at(comparing->new_scene, "scene");
-    bool same_size = number_of(comparing->old_scene, "width") == number_of(comparing->new_scene, "width") &&
-                     number_of(comparing->old_scene, "height") == number_of(comparing->new_scene, "height");
-    if (!same_size)
+    const json_t *old = comparing->old, *new = comparing->new;
+    const char *name = bench_text(new, "scene");
+    if (bench_number(old, "width") != bench_number(new, "width") ||
+        bench_number(old, "height") != bench_number(new, "height")) {
         fprintf(comparing->stream, "%s: another size: not compared\n", name);
-    for (int filtered = 0; filtered < 2 && same_size; ++filtered)
-        if (!same_truth(comparing->old_scene, comparing->new_scene, filtered))
+        return;
+    }
+    bool same_truth[] = {same_text(old, new, "truth"), same_text(old, new, "truth_samples")};
+    for (int filtered = 0; filtered < 2; ++filtered)
+        if (!same_truth[filtered])
             fprintf(comparing->stream, "%s: another truth%s: errors are not compared\n", name,
                     filtered ? " for samples" : "");
-    json_array_foreach(json_object_get(comparing->new_scene, "points"), i, point)
-    {
-        const json_t *old = same_size ? find_point(comparing->old_scene, point) : NULL;
-        bool filtered = strcmp(json_text_at(point, "family"), "samples") == 0;
-        if (!old)
-            continue;
-        ++comparing->compared;
+    find_pairs(comparing);
+    for (size_t i = 0; i < comparing->count; ++i) {
         if (comparing->times)
-            compare_times(comparing, old, point);
-        if (same_truth(comparing->old_scene, comparing->new_scene, filtered))
-            compare_errors(comparing, old, point);
+            compare_times(comparing, &comparing->pairs[i]);
+        if (same_truth[bench_is_filtered(comparing->pairs[i].new)])
+            compare_errors(comparing, &comparing->pairs[i]);
     }
+    comparing->compared += comparing->count;
+}
+
+/* Text or integer as text; "none" where there is none. */
+static const char *value_text(const json_t *object, const char *key, char number[32])
+{
+    const json_t *value = json_object_get(object, key);
+    snprintf(number, 32, "%lld", (long long)json_integer_value(value));
+    return json_is_integer(value) ? number : value ? bench_text(object, key) : "none";
 }
 
 /* Says where the bench ran elsewhere, and returns whether it did not. */
 static bool same_machine(const json_t *old, const json_t *new, FILE *stream)
 {
     static const char *const keys[] = {"processor", "cores", "device", "driver"};
-    const json_t *old_machine = json_object_get(old, "machine"),
-                 *new_machine = json_object_get(new, "machine");
     bool same = true;
     for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i) {
-        const json_t *before = json_object_get(old_machine, keys[i]),
-                     *now = json_object_get(new_machine, keys[i]);
-        if (json_equal(before, now) || (!before && !now))
+        char old_number[32], new_number[32];
+        const char *before = value_text(old, keys[i], old_number),
+                   *now = value_text(new, keys[i], new_number);
+        if (strcmp(before, now) == 0)
             continue;
-        if (json_is_integer(before) && json_is_integer(now))
-            fprintf(stream, "another machine: %s %lld, was %lld\n", keys[i],
-                    (long long)json_integer_value(now), (long long)json_integer_value(before));
-        else
-            fprintf(stream, "another machine: %s %s, was %s\n", keys[i],
-                    now ? json_text_at(new_machine, keys[i]) : "none",
-                    before ? json_text_at(old_machine, keys[i]) : "none");
+        fprintf(stream, "another machine: %s %s, was %s\n", keys[i], now, before);
         same = false;
     }
     if (!same)
@@ -271,15 +243,15 @@ enum status bench_compare(const json_t *old, const json_t *new, FILE *stream)
     struct comparing comparing = {.stream = stream};
     const json_t *scene;
     size_t i;
-    comparing.times = same_machine(old, new, stream);
+    comparing.times = same_machine(json_object_get(old, "machine"), json_object_get(new, "machine"), stream);
     json_array_foreach(json_object_get(new, "scenes"), i, scene)
     {
-        comparing.old_scene = find_scene(old, scene);
-        comparing.new_scene = scene;
-        if (comparing.old_scene)
+        comparing.old = find(json_object_get(old, "scenes"), scene, "scene", "scene");
+        comparing.new = scene;
+        if (comparing.old)
             compare_scenes(&comparing);
         else
-            fprintf(stream, "%s: not measured before\n", json_text_at(scene, "scene"));
+            fprintf(stream, "%s: not measured before\n", bench_text(scene, "scene"));
     }
     if (comparing.compared == 0) {
         log_error("--compare: the earlier bench has no scene, size and setting in common with this one");

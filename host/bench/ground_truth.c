@@ -1,159 +1,125 @@
 #include "bench/ground_truth.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-enum { ALL_BOUNCES = 64, STRIDE_OF_BOUNCES = 4, PILOT_PIXELS = 300 };
+#include "base/statistics.h"
+#include "image/srgb.h"
 
-static const double most_rays_a_pixel = 2000;
+enum { ALL_BOUNCES = 64, STRIDE_OF_BOUNCES = 4 };
 
-/* Rays a pixel, from some of the pixels. */
-static enum status count_rays(const struct packed_scene *packed, struct reference_rays *rays, size_t *pixels)
-{
-    struct pixel_grid grid =
-        pixel_grid_fitting((unsigned)packed->width, (unsigned)packed->height, PILOT_PIXELS);
-    *pixels = pixel_grid_count(&grid);
-    struct grid_pixels result = {.rgb = calloc(*pixels, 3 * sizeof(double))};
-    if (!result.rgb) {
-        log_error("no memory for %zu pixels", *pixels);
-        return STATUS_UNABLE;
-    }
-    enum status status = pixel_grid_render(packed, PRECISION_FLOAT, &grid, &result, NULL, 0);
-    free(result.rgb);
-    *rays = result.rays;
-    return status;
-}
+static const double most_rays_a_pixel = 2000, relative_floor = 1e-3;
 
-/* Work of a pixel of the picture: rays times objects. */
-static enum status pixel_work(const struct packed_scene *packed, double *work)
+enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *most)
 {
     struct packed_scene pilot = *packed;
-    struct reference_rays rays;
-    size_t pixels;
-    pilot.samples = pilot.light_samples = 1;
-    enum status status = count_rays(&pilot, &rays, &pixels);
-    double lights = packed->quad_light_count > 0 ? packed->light_samples : 1;
-    *work = ((double)(rays.primary + rays.secondary) + (double)rays.shadow * lights) * packed->samples *
-            (packed->sphere_count + packed->plane_count + 1) / (double)pixels;
-    return status;
-}
-
-enum status bench_deepest(const struct scene *scene, const struct picture_settings *settings,
-                          unsigned *deepest, bool *has_secondary_rays)
-{
-    struct packed_scene packed;
-    struct picture_settings pilot = *settings;
-    pilot.samples = pilot.light_samples = 1;
-    pilot.warned = true;
-    *deepest = settings->max_bounces;
-    *has_secondary_rays = false;
-    for (size_t i = 0; i < scene->object_count; ++i)
-        if (scene->materials[scene->objects[i].material].type != MATERIAL_MATTE)
-            *has_secondary_rays = true;
-    enum status status = pack_scene(scene, &pilot, &packed);
-    if (status != STATUS_DONE)
-        return status;
-    while (*has_secondary_rays && *deepest < ALL_BOUNCES && status == STATUS_DONE) {
-        unsigned next =
-            *deepest + STRIDE_OF_BOUNCES < ALL_BOUNCES ? *deepest + STRIDE_OF_BOUNCES : ALL_BOUNCES;
+    *most = (unsigned)packed->max_bounces;
+    while (*most < ALL_BOUNCES) {
         struct reference_rays rays;
-        size_t pixels;
-        packed.max_bounces = (int)next;
-        status = count_rays(&packed, &rays, &pixels);
-        if ((double)rays.secondary > most_rays_a_pixel * (double)pixels)
-            break;
-        *deepest = next;
+        double pixels;
+        unsigned next = *most + STRIDE_OF_BOUNCES;
+        pilot.max_bounces = (int)(next < ALL_BOUNCES ? next : ALL_BOUNCES);
+        enum status status = grid_count_rays(&pilot, &rays, &pixels);
+        if (status != STATUS_DONE || (double)rays.secondary > most_rays_a_pixel * pixels)
+            return status;
+        *most = (unsigned)pilot.max_bounces;
     }
-    pack_destroy(&packed);
-    return status;
+    return STATUS_DONE;
 }
 
-static enum status compute(const struct scene *scene, const struct picture_settings *settings, double work,
-                           struct progress *progress, double progress_total, struct ground_truth *truth)
+enum status ground_truth_create(const struct scene *scene, struct picture_settings settings,
+                                enum truth_kind kind, const struct truth_effort *effort,
+                                struct progress *progress, double share, struct ground_truth *truth)
 {
     struct packed_scene packed;
-    double work_per_pixel;
-    enum status status = pack_scene(scene, settings, &packed);
+    enum grid_output output = kind == TRUTH_EXACT ? GRID_QUAD : GRID_DOUBLE;
+    char what[100], where[100] = "every pixel";
+    *truth = (struct ground_truth){0};
+    if (kind == TRUTH_OF_SAMPLES) {
+        settings.samples = effort->samples;
+        settings.light_samples = 1; /* of each pixel sample: together as many as those */
+        snprintf(what, sizeof what, "double with %u samples a pixel", settings.samples);
+    } else if (kind == TRUTH_OF_LIGHTS) {
+        settings.light_samples = effort->samples;
+        snprintf(what, sizeof what, "double with %u bounces and %u light samples", settings.max_bounces,
+                 settings.light_samples);
+    } else {
+        snprintf(what, sizeof what, "quad (binary128) with %u bounces", settings.max_bounces);
+    }
+    enum status status = pack_scene(scene, &settings, &packed);
     if (status != STATUS_DONE)
         return status;
-    status = pixel_work(&packed, &work_per_pixel);
-    if (status == STATUS_DONE) {
-        truth->grid = pixel_grid_fitting(settings->width, settings->height, work / work_per_pixel);
-        truth->rgb = calloc(pixel_grid_count(&truth->grid), 3 * sizeof *truth->rgb);
-        if (truth->rgb) {
-            struct grid_pixels pixels = {.rgb = truth->rgb};
-            status =
-                pixel_grid_render(&packed, truth->precision, &truth->grid, &pixels, progress, progress_total);
-        } else {
-            log_error("no memory for %zu pixels", pixel_grid_count(&truth->grid));
-            status = STATUS_UNABLE;
-        }
-    }
+    status = grid_render(&packed, output, kind == TRUTH_EXACT ? effort->quad : effort->with_double, progress,
+                         share, &truth->pixels);
     pack_destroy(&packed);
-    if (status != STATUS_DONE)
-        ground_truth_destroy(truth);
+    const struct pixel_grid *grid = &truth->pixels.grid;
+    if (grid->step > 1)
+        snprintf(where, sizeof where, "%zu pixels: one in %u, both ways", pixel_grid_count(grid), grid->step);
+    snprintf(truth->text, sizeof truth->text, "the reference in %s, at %s", what, where);
     return status;
 }
 
-/* Completes the text with where it holds. */
-static void say_where(struct ground_truth *truth)
+static bool is_off_8bit(const struct srgb_encoder *encoder, const float *value, const double *exact)
 {
-    size_t length = strlen(truth->text);
-    char *end = truth->text + length;
-    if (truth->grid.step == 1)
-        snprintf(end, sizeof truth->text - length, ", at every pixel");
-    else
-        snprintf(end, sizeof truth->text - length, ", at %zu pixels: one in %u, both ways",
-                 pixel_grid_count(&truth->grid), truth->grid.step);
+    const float exact_float[3] = {(float)exact[0], (float)exact[1], (float)exact[2]};
+    uint8_t code[3], exact_code[3];
+    srgb_encode(encoder, value, 3, code);
+    srgb_encode(encoder, exact_float, 3, exact_code);
+    for (int c = 0; c < 3; ++c)
+        if (abs((int)code[c] - (int)exact_code[c]) > 1)
+            return true;
+    return false;
 }
 
-enum status ground_truth_create(const struct scene *scene, struct picture_settings settings, unsigned deepest,
-                                const struct bench_effort *effort, struct progress *progress,
-                                double progress_total, struct ground_truth *truth)
+/* The pixel's largest errors over the channels; returns the mean of their squares. */
+static double measure_pixel(const struct image *image, size_t place, const double *exact, double *absolute,
+                            double *relative)
 {
-    bool sampled = false;
-    for (size_t i = 0; i < scene->light_count; ++i)
-        sampled = sampled || scene->lights[i].type == LIGHT_QUAD;
-    *truth = (struct ground_truth){.precision = sampled ? PRECISION_DOUBLE : PRECISION_QUAD};
-    settings.max_bounces = deepest;
-    settings.warned = true;
-    if (sampled)
-        settings.light_samples = effort->samples;
-    enum status status = compute(scene, &settings, sampled ? effort->double_work : effort->quad_work,
-                                 progress, progress_total, truth);
-    int length = snprintf(truth->text, sizeof truth->text, "the reference in %s with %u bounces",
-                          sampled ? "double" : "quad (binary128)", deepest);
-    if (sampled)
-        snprintf(truth->text + length, sizeof truth->text - (size_t)length, " and %u light samples",
-                 settings.light_samples);
-    say_where(truth);
-    return status;
+    double squares = 0;
+    *absolute = *relative = 0;
+    for (size_t c = 0; c < 3; ++c) {
+        size_t at = 3 * place + c;
+        double error = fabs((image->rgb64 ? image->rgb64[at] : (double)image->rgb[at]) - exact[c]);
+        error = isnan(error) ? INFINITY : error;
+        *absolute = fmax(*absolute, error);
+        *relative = fmax(*relative, error / fmax(fabs(exact[c]), relative_floor));
+        squares += error * error;
+    }
+    return squares / 3;
 }
 
-enum status ground_truth_create_filtered(const struct scene *scene, struct picture_settings settings,
-                                         const struct bench_effort *effort, struct progress *progress,
-                                         double progress_total, struct ground_truth *truth)
+enum status bench_error_measure(const struct image *image, const struct ground_truth *truth,
+                                struct bench_error *error)
 {
-    *truth = (struct ground_truth){.precision = PRECISION_DOUBLE};
-    settings.samples = effort->samples;
-    settings.light_samples = 1; /* of each pixel sample: together as many as those */
-    settings.warned = true;
-    enum status status = compute(scene, &settings, effort->double_work, progress, progress_total, truth);
-    snprintf(truth->text, sizeof truth->text, "the reference in double with %u samples a pixel",
-             settings.samples);
-    say_where(truth);
-    return status;
-}
-
-void ground_truth_destroy(struct ground_truth *truth)
-{
-    free(truth->rgb);
-    *truth = (struct ground_truth){0};
-}
-
-double bench_explained_pixels(const struct packed_scene *packed, double work)
-{
-    double work_per_pixel;
-    return pixel_work(packed, &work_per_pixel) == STATUS_DONE ? work / work_per_pixel : 1;
+    size_t count = pixel_grid_count(&truth->pixels.grid);
+    double *absolute = calloc(2 * count, sizeof *absolute);
+    double sum = 0, sum_of_squares = 0; /* of the pixels' mean squares */
+    struct srgb_encoder encoder;
+    *error = (struct bench_error){0};
+    if (!absolute) {
+        log_error("no memory for the errors of %zu pixels", count);
+        return STATUS_UNABLE;
+    }
+    double *relative = absolute + count;
+    srgb_encoder_init(&encoder);
+    for (size_t i = 0; i < count; ++i) {
+        size_t place = pixel_grid_place(&truth->pixels.grid, i, image->width);
+        const double *exact = &truth->pixels.rgb[3 * i];
+        double mean_square = measure_pixel(image, place, exact, &absolute[i], &relative[i]);
+        sum += mean_square;
+        sum_of_squares += mean_square * mean_square;
+        error->pixels_off_8bit += is_off_8bit(&encoder, &image->rgb[3 * place], exact);
+    }
+    sort_doubles(absolute, count);
+    sort_doubles(relative, count);
+    double n = (double)count, variance = sum_of_squares / n - (sum / n) * (sum / n);
+    error->max = absolute[count - 1];
+    error->rmse = sqrt(sum / n);
+    error->rmse_uncertainty = sum > 0 ? sqrt(fmax(variance, 0) / n) / (2 * error->rmse) : 0;
+    error->absolute_999 = sorted_quantile(absolute, count, 0.999);
+    error->relative_median = sorted_quantile(relative, count, 0.5);
+    error->relative_999 = sorted_quantile(relative, count, 0.999);
+    free(absolute);
+    return STATUS_DONE;
 }

@@ -7,36 +7,42 @@
 /* What errors are measured against: the reference at high precision, as far as it is affordable, which may be
  * at some of the pixels only. What is computed depends on the scene and its size, not on the machine. */
 struct ground_truth {
-    struct pixel_grid grid;
-    double *rgb; /* 3 a pixel of the grid */
-    enum precision precision;
+    struct grid_pixels pixels;
     char text[200]; /* what it is, for people */
 };
 
-/* How much work a truth may be: rays times objects. */
-struct bench_effort {
-    double quad_work, double_work;
-    unsigned samples; /* of what is sampled */
+/* How much work truths may be: rays times objects. */
+struct truth_effort {
+    double quad, with_double, explained; /* explained: quad with the error analysis */
+    unsigned samples;                    /* of what is sampled */
 };
 
 /* The most bounces, at least the scene's and otherwise at most 64, with which rays do not multiply beyond
- * reason. *has_secondary_rays gets whether there is anything that rays bounce from. */
-enum status bench_deepest(const struct scene *scene, const struct picture_settings *settings,
-                          unsigned *deepest, bool *has_secondary_rays);
+ * reason. */
+enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *most);
 
-/* The picture with `deepest` bounces and converged light samples: quad, or double where lights are sampled.
- */
-enum status ground_truth_create(const struct scene *scene, struct picture_settings settings, unsigned deepest,
-                                const struct bench_effort *effort, struct progress *progress,
-                                double progress_total, struct ground_truth *truth);
+/* Which picture is true: that of the settings in quad; in double where lights are sampled, with converged
+ * light samples; or in double with converged pixel samples. */
+enum truth_kind { TRUTH_EXACT, TRUTH_OF_LIGHTS, TRUTH_OF_SAMPLES };
 
-/* The picture as the settings say but for converged pixel samples, in double. */
-enum status ground_truth_create_filtered(const struct scene *scene, struct picture_settings settings,
-                                         const struct bench_effort *effort, struct progress *progress,
-                                         double progress_total, struct ground_truth *truth);
-void ground_truth_destroy(struct ground_truth *truth);
+/* Renders the truth, and advances progress by `share`. On failure (reported) the truth is empty; otherwise
+ * the caller frees it. */
+enum status ground_truth_create(const struct scene *scene, struct picture_settings settings,
+                                enum truth_kind kind, const struct truth_effort *effort,
+                                struct progress *progress, double share, struct ground_truth *truth);
 
-/* So many pixels of the scene are about this much work in quad with the error analysis. */
-double bench_explained_pixels(const struct packed_scene *packed, double work);
+/* How far a picture is from the truth, at the truth's pixels. Infinite where a value is not finite. A pixel's
+ * error is the largest over its channels; a relative error is |value - truth| / max(|truth|, 1e-3). */
+struct bench_error {
+    double max, rmse;        /* over all channel values, linear radiance */
+    double rmse_uncertainty; /* standard error of rmse, were the pixels drawn at random */
+    double absolute_999;     /* 99.9 % of the pixels are within it */
+    double relative_median, relative_999;
+    size_t pixels_off_8bit; /* with a channel off by more than one step of 8-bit sRGB */
+};
+
+/* The picture is whole: the truth's grid is one over it. STATUS_UNABLE (reported) without memory. */
+enum status bench_error_measure(const struct image *image, const struct ground_truth *truth,
+                                struct bench_error *error);
 
 #endif

@@ -1,24 +1,16 @@
 #include "bench/measure.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/clock.h"
 #include "base/interrupt.h"
 #include "base/statistics.h"
-#include "bench/energy.h"
-
-static struct window whole(const struct packed_scene *packed)
-{
-    return (struct window){0, 0, (unsigned)packed->width, (unsigned)packed->height};
-}
 
 static struct render_plan plan_of(const struct bench_point *point)
 {
     return (struct render_plan){
         .scene = &point->packed,
-        .window = whole(&point->packed),
+        .window = {0, 0, (unsigned)point->packed.width, (unsigned)point->packed.height},
         .precision = point->setting.precision,
         .threads = point->setting.threads,
         .fast = point->setting.fast,
@@ -28,13 +20,13 @@ static struct render_plan plan_of(const struct bench_point *point)
 
 enum status bench_point_run(struct bench_point *point, struct image *image, double *milliseconds)
 {
-    struct progress unseen;
-    struct rendering rendering;
     struct render_plan plan = plan_of(point);
     if (point->tracer) {
+        struct progress unseen;
         progress_start(&unseen, "", 1, true);
         return tracer_render(point->tracer, plan.window, image, &unseen, milliseconds);
     }
+    struct rendering rendering;
     enum status status = render_on_cpu(&plan, &rendering);
     if (status != STATUS_DONE)
         return status;
@@ -48,20 +40,19 @@ enum status bench_point_run(struct bench_point *point, struct image *image, doub
 enum status bench_point_start(struct vulkan_context *context, const struct scene *scene,
                               struct bench_point *point, struct image *image)
 {
-    struct picture_settings picture = point->setting.picture;
-    picture.warned = true;
+    struct bench_setting *setting = &point->setting;
+    bool is_double = setting->precision == PRECISION_DOUBLE, on_device = setting->backend == BACKEND_VULKAN;
+    image_destroy(image);
+    enum status status = image_create(setting->picture.width, setting->picture.height, image);
+    if (status == STATUS_DONE && on_device && is_double)
+        status = image_widen(image);
     double start = clock_ms();
-    enum status status = pack_scene(scene, &picture, &point->packed);
-    if (status == STATUS_DONE && point->setting.backend == BACKEND_VULKAN) {
+    if (status == STATUS_DONE)
+        status = pack_scene(scene, &setting->picture, &point->packed);
+    if (status == STATUS_DONE && on_device)
         status = tracer_create(context, &point->packed,
-                               &(struct tracer_options){
-                                   .double_precision = point->setting.precision == PRECISION_DOUBLE,
-                                   .fast = point->setting.fast,
-                               },
+                               &(struct tracer_options){.double_precision = is_double, .fast = setting->fast},
                                &point->tracer);
-        if (status == STATUS_DONE && point->setting.precision == PRECISION_DOUBLE && !image->rgb64)
-            status = image_widen(image);
-    }
     point->setup_ms = clock_ms() - start;
     if (status == STATUS_DONE)
         status = bench_point_run(point, image, &point->first_ms);
@@ -79,34 +70,27 @@ void bench_point_destroy(struct bench_point *point)
 /* The order of a round: the CPU's points spread evenly among the device's. */
 static void interleave(const struct bench_point *points, size_t count, size_t *order)
 {
-    size_t cpu = 0, device = 0, cpu_total = 0;
+    size_t totals[2] = {0}, placed[2] = {0}, next[2] = {0}; /* device, CPU */
     for (size_t i = 0; i < count; ++i)
-        cpu_total += points[i].setting.backend == BACKEND_CPU;
-    size_t next_cpu = 0, next_device = 0;
+        ++totals[points[i].setting.backend == BACKEND_CPU];
     for (size_t i = 0; i < count; ++i) {
-        bool takes_cpu = device == count - cpu_total || (cpu < cpu_total && cpu * count <= i * cpu_total);
-        size_t *next = takes_cpu ? &next_cpu : &next_device;
-        while ((points[*next].setting.backend == BACKEND_CPU) != takes_cpu)
-            ++*next;
-        order[i] = (*next)++;
-        cpu += takes_cpu;
-        device += !takes_cpu;
+        bool cpu = placed[0] == totals[0] || (placed[1] < totals[1] && placed[1] * count <= i * totals[1]);
+        while ((points[next[cpu]].setting.backend == BACKEND_CPU) != cpu)
+            ++next[cpu];
+        order[i] = next[cpu]++;
+        ++placed[cpu];
     }
 }
 
-static enum status run_warm(struct bench_point *point, struct image *image, struct energy_meter *meter)
+static enum status run_warm(struct bench_point *point, struct image *image)
 {
-    double before = 0, after = 0, milliseconds;
-    bool metered = energy_meter_read(meter, &before);
     double start = clock_ms();
-    enum status status = bench_point_run(point, image, &milliseconds);
-    if (status != STATUS_DONE)
-        return status;
+    enum status status = interrupt_requested()
+                             ? STATUS_INTERRUPTED
+                             : bench_point_run(point, image, &point->runs_ms[point->run_count]);
     point->spent_ms += clock_ms() - start;
-    metered = energy_meter_read(meter, &after) && metered;
-    point->joules = metered ? point->joules + after - before : -1;
-    point->runs_ms[point->run_count++] = milliseconds;
-    return STATUS_DONE;
+    point->run_count += status == STATUS_DONE;
+    return status;
 }
 
 static bool is_content(const struct bench_point *point, const struct run_limits *limits, double elapsed)
@@ -117,79 +101,53 @@ static bool is_content(const struct bench_point *point, const struct run_limits 
            elapsed >= limits->all_ms;
 }
 
+static void summarise(struct bench_point *point)
+{
+    sort_doubles(point->runs_ms, point->run_count);
+    point->median_ms = sorted_quantile(point->runs_ms, point->run_count, 0.5);
+    point->quartiles_ms[0] = sorted_quantile(point->runs_ms, point->run_count, 0.25);
+    point->quartiles_ms[1] = sorted_quantile(point->runs_ms, point->run_count, 0.75);
+}
+
 enum status bench_run_rounds(struct bench_point *points, size_t count, const struct run_limits *limits,
-                             struct image *image, struct progress *progress)
+                             struct image *image, struct progress *progress, double share)
 {
     size_t *order = calloc(count + 1, sizeof *order);
     if (!order) {
         log_error("no memory for %zu points", count);
         return STATUS_UNABLE;
     }
-    struct energy_meter meter;
-    energy_meter_open(&meter, "/sys/class/powercap");
     interleave(points, count, order);
     enum status status = STATUS_DONE;
-    double start = clock_ms(), shown = start;
+    double start = clock_ms();
+    uint64_t shown = 0;
     bool going_on = true;
     for (size_t round = 0; going_on && status == STATUS_DONE; ++round) {
         going_on = false;
         for (size_t i = 0; i < count && status == STATUS_DONE; ++i) {
             struct bench_point *point = &points[order[round % 2 ? count - 1 - i : i]];
-            if (is_content(point, limits, clock_ms() - start))
+            double elapsed = clock_ms() - start;
+            if (is_content(point, limits, elapsed))
                 continue;
             going_on = true;
-            status = interrupt_requested() ? STATUS_INTERRUPTED : run_warm(point, image, &meter);
-            double now = clock_ms();
-            progress_advance(progress, (uint64_t)(now - shown));
-            shown += (double)(uint64_t)(now - shown);
+            status = run_warm(point, image);
+            uint64_t now = (uint64_t)(elapsed < limits->all_ms ? share * elapsed / limits->all_ms : share);
+            progress_advance(progress, now - shown);
+            shown = now;
         }
     }
+    for (size_t i = 0; i < count; ++i)
+        summarise(&points[i]);
     free(order);
     return status;
 }
 
-struct bench_times bench_point_times(const struct bench_point *point)
-{
-    double sorted[BENCH_MAX_RUNS];
-    memcpy(sorted, point->runs_ms, point->run_count * sizeof *sorted);
-    sort_doubles(sorted, point->run_count);
-    return (struct bench_times){
-        .median = sorted_quantile(sorted, point->run_count, 0.5),
-        .quartiles = {sorted_quantile(sorted, point->run_count, 0.25),
-                      sorted_quantile(sorted, point->run_count, 0.75)},
-    };
-}
-
+/* Whether two settings differ in speed or rounding alone. */
 static bool same_picture(const struct picture_settings *a, const struct picture_settings *b)
 {
     return a->max_bounces == b->max_bounces && a->samples == b->samples &&
            a->light_samples == b->light_samples && a->has_max_error == b->has_max_error &&
-           (!a->has_max_error || a->max_error == b->max_error);
-}
-
-/* Copies what a point with the same picture has, if there is one. */
-static bool share_rays(const struct bench_point *points, size_t count, struct bench_point *point)
-{
-    for (size_t i = 0; i < count; ++i)
-        if (points[i].rays.primary > 0 && points[i].setting.precision == PRECISION_FLOAT &&
-            same_picture(&points[i].setting.picture, &point->setting.picture)) {
-            point->rays = points[i].rays;
-            return true;
-        }
-    return false;
-}
-
-/* How long the reference takes for the point's picture, by what it took for the scene's. */
-static double reference_ms(const struct bench_point *points, size_t count, const struct bench_point *point)
-{
-    const struct picture_settings *picture = &point->setting.picture;
-    for (size_t i = 0; i < count; ++i) {
-        const struct picture_settings *known = &points[i].setting.picture;
-        if (points[i].setting.family == FAMILY_CPU && points[i].setting.precision == PRECISION_FLOAT)
-            return points[i].first_ms * picture->samples / known->samples * picture->light_samples /
-                   known->light_samples;
-    }
-    return INFINITY;
+           a->max_error == b->max_error;
 }
 
 enum status bench_count_rays(struct vulkan_context *context, struct bench_point *points, size_t count)
@@ -197,20 +155,14 @@ enum status bench_count_rays(struct vulkan_context *context, struct bench_point 
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < count && status == STATUS_DONE; ++i) {
         struct bench_point *point = &points[i];
-        if (point->rays.primary > 0 || share_rays(points, count, point))
-            continue;
         struct render_plan plan = plan_of(point);
+        for (size_t k = 0; k < count && point->rays.primary == 0; ++k)
+            if (points[k].setting.precision == PRECISION_FLOAT &&
+                same_picture(&points[k].setting.picture, &point->setting.picture))
+                point->rays = points[k].rays;
         plan.precision = PRECISION_FLOAT;
-        if (reference_ms(points, count, point) > point->setup_ms + point->first_ms) {
+        if (point->rays.primary == 0)
             status = rays_on_device(context, &plan, &point->rays);
-            continue;
-        }
-        struct rendering rendering;
-        status = render_on_cpu(&plan, &rendering);
-        if (status != STATUS_DONE)
-            break;
-        point->rays = rendering.rays;
-        image_destroy(&rendering.image);
     }
     return status;
 }

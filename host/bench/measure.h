@@ -1,7 +1,7 @@
 #ifndef VKWHITTED_BENCH_MEASURE_H
 #define VKWHITTED_BENCH_MEASURE_H
 
-#include "bench/error.h"
+#include "bench/ground_truth.h"
 #include "bench/settings.h"
 
 enum { BENCH_MAX_RUNS = 51 };
@@ -12,10 +12,10 @@ struct bench_point {
     struct packed_scene packed;
     struct tracer *tracer; /* on a device, ready to render */
     double setup_ms, first_ms;
-    double runs_ms[BENCH_MAX_RUNS]; /* of the warm runs, in the order they were made */
+    double runs_ms[BENCH_MAX_RUNS]; /* of the warm runs; ascending after bench_run_rounds() */
     size_t run_count;
     double spent_ms;
-    double joules; /* of the warm runs together; below 0: the machine does not tell */
+    double median_ms, quartiles_ms[2];
     struct reference_rays rays;
     struct bench_error error;
     bool pareto;
@@ -28,8 +28,8 @@ struct run_limits {
     double all_ms;                /* of all points, but for their least runs */
 };
 
-/* Readies the point for rendering and renders it once, into image, which has the picture's size (and gets
- * wider where the precision asks for it). On failure the point holds nothing. */
+/* Readies the point for rendering and renders it once into *image, which is made anew, with room for double
+ * precision where that is asked for. On failure (reported) the point holds nothing. */
 enum status bench_point_start(struct vulkan_context *context, const struct scene *scene,
                               struct bench_point *point, struct image *image);
 
@@ -39,18 +39,12 @@ void bench_point_destroy(struct bench_point *point);
 
 /* Runs all points warm in rounds, one run of each in a round, so that what disturbs the machine for a while
  * disturbs all of them; the CPU's points stand between the device's, and every other round runs backward, so
- * that a steady drift cancels. Advances progress by milliseconds. */
+ * that a steady drift cancels. Advances progress by `share`. */
 enum status bench_run_rounds(struct bench_point *points, size_t count, const struct run_limits *limits,
-                             struct image *image, struct progress *progress);
+                             struct image *image, struct progress *progress, double share);
 
-/* The median and the quartiles of the point's warm runs. */
-struct bench_times {
-    double median, quartiles[2];
-};
-struct bench_times bench_point_times(const struct bench_point *point);
-
-/* Counts the rays of the points on a device as they are in float: on the device, which has to build another
- * pipeline for it, or where that takes longer with the reference, which traces the same. */
+/* Counts the rays of the points on a device, as they are in float, with another pipeline. Points that make
+ * the same picture share them, also those that the CPU has counted as it rendered. */
 enum status bench_count_rays(struct vulkan_context *context, struct bench_point *points, size_t count);
 
 #endif

@@ -1,209 +1,114 @@
 #include "bench/report.h"
 
-#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/output_file.h"
-#include "bench/chart_convergence.h"
-#include "bench/chart_speed.h"
-#include "bench/json_value.h"
-#include "bench/markup.h"
-#include "bench/report_tables.h"
-#include "report_css.h"
+#include "check/heatmap.h"
+#include "image/formats.h"
+#include "image/srgb.h"
+#include "report_html.h"
 
-static void write_date(const char *date, FILE *out)
+/* What is shown of a picture: its colours, or where it differs from another one. */
+struct view {
+    const struct image *image, *reference;
+    struct srgb_encoder encoder;
+};
+
+static void encode_row(const void *context, unsigned y, uint8_t *rgb)
 {
-    /* 2026-01-31T12:00:00Z */
-    if (strlen(date) == 20 && date[10] == 'T' && date[19] == 'Z') {
-        char shorter[32];
-        snprintf(shorter, sizeof shorter, "%.10s %.5s UTC", date, date + 11);
-        markup_text(out, shorter);
-    } else {
-        markup_text(out, date);
+    const struct view *view = context;
+    size_t values = (size_t)view->image->width * 3, start = y * values;
+    if (!view->reference)
+        srgb_encode(&view->encoder, view->image->rgb + start, values, rgb);
+    for (size_t i = 0; i < values && view->reference; i += 3)
+        heatmap_color(view->image->rgb + start + i, view->reference->rgb + start + i, rgb + i);
+}
+
+/* RFC 4648, as a JSON text. NULL without memory. */
+static json_t *encode_base64(const char *bytes, size_t count)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    size_t size = (count + 2) / 3 * 4;
+    char *text = malloc(size + 1), *end = text;
+    for (size_t i = 0; i < count && text; i += 3) {
+        size_t here = count - i < 3 ? count - i : 3;
+        uint32_t group = 0;
+        for (size_t k = 0; k < 3; ++k)
+            group = group << 8 | (k < here ? (uint8_t)bytes[i + k] : 0);
+        for (size_t k = 0; k < 4; ++k)
+            *end++ = k <= here ? letters[group >> (18 - 6 * k) & 63] : '=';
     }
+    json_t *value = text ? json_stringn(text, size) : NULL;
+    free(text);
+    return value;
 }
 
-static void write_head(const json_t *document, FILE *out)
+static enum status add_picture(json_t *pictures, const char *key, const struct view *view)
 {
-    fputs(
-        "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n"
-        "<meta charset=\"utf-8\"/>\n"
-        "<meta http-equiv=\"Content-Security-Policy\" "
-        "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:\"/>\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-        "<meta name=\"color-scheme\" content=\"light dark\"/>\n<title>Speed against error</title>\n<style>\n",
-        out);
-    fwrite(report_css, 1, sizeof report_css, out);
-    fputs("</style>\n</head>\n<body>\n<header>\n<h1>Speed against error</h1>\n<p class=\"quiet\">", out);
-    markup_text(out, json_text_at(document, "program"));
-    fputc(' ', out);
-    markup_text(out, json_text_at(document, "version"));
-    fputs(", ", out);
-    write_date(json_text_at(document, "date"), out);
-    if (json_is_true(json_object_get(document, "quick")))
-        fputs(", a quick run with few settings and few repetitions", out);
-    fputs("</p>\n<pre>", out);
-    markup_text(out, json_text_at(document, "command"));
-    fputs("</pre>\n</header>\n", out);
-}
-
-static void write_picture(const json_t *scene, const char *key, const char *caption, FILE *out)
-{
-    const char *base64 = json_text_at(json_object_get(scene, "pictures"), key);
-    if (!*base64)
-        return;
-    fprintf(out, "<figure>\n<img width=\"%.0f\" height=\"%.0f\" alt=\"%s\" src=\"data:image/png;base64,",
-            json_number_at(scene, "width"), json_number_at(scene, "height"), caption);
-    markup_text(out, base64);
-    fprintf(out, "\"/>\n<figcaption>%s</figcaption>\n</figure>\n", caption);
-}
-
-static void write_pictures(const json_t *scene, FILE *out)
-{
-    fputs("<div class=\"pictures\">\n", out);
-    write_picture(scene, "render", "The picture", out);
-    write_picture(scene, "heatmap", "Device against reference: black where the bits are the same", out);
-    fputs("</div>\n", out);
-}
-
-/* Both sizes; the style sheet shows one. */
-static enum status write_speed_chart(const json_t *scene, size_t index, FILE *out)
-{
-    char wide[32], narrow[32], rows[32];
-    snprintf(wide, sizeof wide, "s%zu-wide-", index);
-    snprintf(narrow, sizeof narrow, "s%zu-narrow-", index);
-    snprintf(rows, sizeof rows, "s%zu-p", index);
-    const struct chart_frame frames[] = {
-        {.width = 1040, .height = 600, .font = 15, .left = 62, .right = 24, .bottom = 58, .id = wide},
-        {.width = 370,
-         .height = 480,
-         .font = 13,
-         .left = 50,
-         .right = 14,
-         .bottom = 52,
-         .narrow = true,
-         .id = narrow},
+    const struct png_source source = {
+        .width = view->image->width,
+        .height = view->image->height,
+        .transfer = TRANSFER_SRGB,
+        .encode_row = encode_row,
+        .context = view,
     };
-    fputs("<h3>Speed against error</h3>\n<figure class=\"chart\">\n", out);
-    enum status status = chart_speed(scene, &frames[0], rows, out);
-    if (status == STATUS_DONE)
-        status = chart_speed(scene, &frames[1], rows, out);
-    fputs("<figcaption>A point is one setting: the median time of a picture, with quartiles, against the "
-          "error. "
-          "Left and below is better. Nothing measured beats a point of the Pareto front in both. An error of "
-          "exactly 0 stands at the left edge. Each point shows on hover what it is, and leads to its row in "
-          "the "
-          "table. Errors are against ",
-          out);
-    markup_text(out, json_text_at(scene, "truth"));
-    const char *truth_samples = json_text_at(scene, "truth_samples");
-    if (*truth_samples) {
-        fputs("; those of <code>--samples</code> against ", out);
-        markup_text(out, truth_samples);
-        fputs(", with a front of their own", out);
-    }
-    fputs(".</figcaption>\n</figure>\n", out);
-    return status;
-}
-
-static enum status write_convergence(const json_t *scene, size_t index, FILE *out)
-{
-    const json_t *entries = json_object_get(scene, "convergence");
-    enum status status = STATUS_DONE;
-    if (json_array_size(entries) == 0)
+    char *bytes = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&bytes, &size);
+    enum status status = stream ? png_encode(&source, stream, "picture of the report") : STATUS_DONE;
+    bool complete =
+        stream && fclose(stream) == 0 &&
+        (status != STATUS_DONE || json_object_set_new(pictures, key, encode_base64(bytes, size)) == 0);
+    free(bytes);
+    if (complete)
         return status;
-    fputs("<h3>Convergence</h3>\n<div class=\"charts\">\n", out);
-    for (size_t i = 0; i < json_array_size(entries) && status == STATUS_DONE; i++) {
-        const json_t *entry = json_array_get(entries, i);
-        char id[48];
-        snprintf(id, sizeof id, "s%zu-c%zu-", index, i);
-        const struct chart_frame frame = {
-            .width = 400, .height = 350, .font = 15, .left = 58, .right = 18, .bottom = 58, .id = id};
-        fputs("<figure class=\"chart\">\n", out);
-        status = chart_convergence(entry, &frame, out);
-        fputs("<figcaption><code>--", out);
-        markup_text(out, json_text_at(entry, "family"));
-        fputs("</code>: ", out);
-        double slope = json_number_at(entry, "slope");
-        if (isfinite(slope))
-            fprintf(out, "the error falls as N<sup>%s%.2f</sup>, fitted from %.0f to %.0f samples",
-                    slope < 0.0 ? "−" : "", fabs(slope), json_number_at(entry, "slope_from"),
-                    json_number_at(entry, "slope_to"));
-        else
-            fputs("too few points to fit a slope to", out);
-        fputs("</figcaption>\n</figure>\n", out);
-    }
-    fputs("</div>\n", out);
-    return status;
+    log_error("no memory for a picture of the report");
+    return STATUS_UNABLE;
 }
 
-static enum status write_scene(const json_t *scene, size_t index, FILE *out)
+enum status report_pictures(const struct image *image, const struct image *reference, json_t **pictures)
 {
-    fprintf(out, "<section id=\"s%zu\">\n<h2>", index);
-    markup_text(out, json_text_at(scene, "scene"));
-    fprintf(
-        out,
-        "</h2>\n<p class=\"quiet\">%.0f × %.0f pixels; bounces: %.0f, light samples: %.0f, samples a pixel: "
-        "%.0f</p>\n",
-        json_number_at(scene, "width"), json_number_at(scene, "height"), json_number_at(scene, "max_bounces"),
-        json_number_at(scene, "light_samples"), json_number_at(scene, "samples"));
-    write_pictures(scene, out);
-    enum status status = STATUS_DONE;
-    if (json_array_size(json_object_get(scene, "points")) > 0) {
-        report_recommendations(scene, out);
-        status = write_speed_chart(scene, index, out);
-        report_points(scene, index, out);
+    struct view view = {.image = image};
+    srgb_encoder_init(&view.encoder);
+    *pictures = json_object();
+    enum status status = add_picture(*pictures, "render", &view);
+    view.reference = reference;
+    if (status == STATUS_DONE && reference)
+        status = add_picture(*pictures, "heatmap", &view);
+    if (status != STATUS_DONE) {
+        json_decref(*pictures);
+        *pictures = NULL;
     }
-    if (status == STATUS_DONE)
-        status = write_convergence(scene, index, out);
-    fputs("</section>\n", out);
-    return status;
-}
-
-static enum status write_page(const json_t *document, FILE *out)
-{
-    const json_t *scenes = json_object_get(document, "scenes");
-    enum status status = STATUS_DONE;
-    write_head(document, out);
-    report_agreement(scenes, out);
-    for (size_t i = 0; i < json_array_size(scenes) && status == STATUS_DONE; i++)
-        status = write_scene(json_array_get(scenes, i), i, out);
-    report_machine(json_object_get(document, "machine"), out);
-    fputs("</body>\n</html>\n", out);
     return status;
 }
 
 enum status report_write(const json_t *document, const char *path)
 {
+    static const char marker[] = "@BENCH@";
+    const char *template = (const char *)report_html, *end = template + sizeof report_html;
+    const char *place = memmem(template, sizeof report_html, marker, strlen(marker));
+    char *text = json_dumps(document, JSON_ENSURE_ASCII | JSON_REAL_PRECISION(9));
     struct output_file file;
+    if (!text || !place) {
+        log_error("%s: no memory for the report", path);
+        free(text);
+        return STATUS_UNABLE;
+    }
     enum status status = output_file_open(path, &file);
-    if (status != STATUS_DONE)
-        return status;
-    status = write_page(document, file.stream);
-    if (status == STATUS_DONE)
-        return output_file_commit(&file);
-    output_file_abandon(&file);
-    return status;
-}
-
-enum status chart_write(const json_t *scene, const char *path)
-{
-    static const struct chart_frame frame = {.width = 960,
-                                             .height = 640,
-                                             .font = 15,
-                                             .left = 62,
-                                             .right = 24,
-                                             .bottom = 58,
-                                             .alone = true,
-                                             .id = ""};
-    struct output_file file;
-    enum status status = output_file_open(path, &file);
-    if (status != STATUS_DONE)
-        return status;
-    fputs("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n", file.stream);
-    status = chart_speed(scene, &frame, "", file.stream);
-    if (status == STATUS_DONE)
-        return output_file_commit(&file);
-    output_file_abandon(&file);
+    if (status == STATUS_DONE) {
+        output_file_write(&file, template, (size_t)(place - template));
+        /* Texts may hold "</script" and "<!--", which would end or change the element around them. */
+        for (size_t at = 0, length; text[at]; at += length + (text[at + length] == '<')) {
+            length = strcspn(text + at, "<");
+            output_file_write(&file, text + at, length);
+            if (text[at + length] == '<')
+                output_file_write(&file, "\\u003c", 6);
+        }
+        place += strlen(marker);
+        output_file_write(&file, place, (size_t)(end - place));
+        status = output_file_commit(&file);
+    }
+    free(text);
     return status;
 }

@@ -3,14 +3,14 @@
 
 #include <jansson.h>
 
-#include "base/status.h"
+#include "image/image.h"
 
-/* Writes the bench document as one HTML page that needs nothing else: charts, tables, pictures, machine. A
- * value that is missing or null shows as a dash. The file appears whole or not at all; STATUS_UNABLE has been
- * reported, also where there is no gnuplot (gnuplot_check() tells beforehand). */
+/* The picture as "render" and, with a reference, where it differs from that as "heatmap" (see heatmap.h),
+ * each a PNG in base64, in an object that the caller frees. On failure (reported) *pictures is NULL. */
+enum status report_pictures(const struct image *image, const struct image *reference, json_t **pictures);
+
+/* Writes the bench document as one HTML page that needs nothing else: report.html with the document in it.
+ * The file appears whole or not at all; STATUS_UNABLE has been reported. */
 enum status report_write(const json_t *document, const char *path);
-
-/* Writes the speed-against-error chart of one scene of the document as an SVG file; the rest as above. */
-enum status chart_write(const json_t *scene, const char *path);
 
 #endif

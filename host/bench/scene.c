@@ -2,330 +2,270 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/clock.h"
 #include "bench/document.h"
-#include "bench/pictures.h"
+#include "bench/report.h"
+#include "check/compare.h"
+#include "scene/warnings.h"
 
 /* What a bench may cost. */
 struct effort {
-    struct bench_effort truth;
-    double explained_work;
+    struct truth_effort truth;
     double longest_run_ms; /* a family ends where its next run would take longer */
     struct run_limits limits;
     double whole_ms; /* a bench that has taken longer starts no more knobs and makes the least runs only */
-    double truth_share, filtered_share, explained_share, start_share; /* of the progress bar, in ms */
 };
 
 static const struct effort quick_effort = {
-    .truth = {.quad_work = 12e6, .double_work = 1.6e9, .samples = 1 << 16},
-    .explained_work = 4e6,
+    .truth = {.quad = 12e6, .with_double = 1.6e9, .explained = 4e6, .samples = 1 << 16},
     .longest_run_ms = 700,
     .limits = {.least_runs = 3, .most_runs = 21, .point_ms = 1500, .all_ms = 9e3},
     .whole_ms = 40e3,
-    .truth_share = 4e3,
-    .filtered_share = 7e3,
-    .explained_share = 4e3,
-    .start_share = 8e3,
 };
 
 static const struct effort full_effort = {
-    .truth = {.quad_work = 1e8, .double_work = 1e10, .samples = 1 << 16},
-    .explained_work = 4e7,
+    .truth = {.quad = 1e8, .with_double = 1e10, .explained = 4e7, .samples = 1 << 16},
     .longest_run_ms = 8e3,
     .limits = {.least_runs = 5, .most_runs = BENCH_MAX_RUNS, .point_ms = 8e3, .all_ms = 60e3},
     .whole_ms = INFINITY,
-    .truth_share = 40e3,
-    .filtered_share = 60e3,
-    .explained_share = 40e3,
-    .start_share = 60e3,
 };
 
+/* Of the progress bar. */
+enum { TRUTH_SHARE = 120, FILTERED_SHARE = 220, ROUNDING_SHARE = 120, START_SHARE = 240, RUNS_SHARE = 300 };
+
 struct bench {
+    const struct bench_options *options;
     struct vulkan_context *context;
-    const char *path;
     const struct effort *effort;
     double start_ms;
     struct scene scene;
-    struct picture_settings picture;
-    struct ground_truth truth, filtered;
-    struct bench_point *points;
-    size_t count;
+    struct packed_scene packed; /* as the scene says */
+    struct bench_choice choice;
     struct bench_result result;
-    json_t *pictures; /* NULL unless wanted */
+    struct image image; /* the last picture */
+    json_t *pictures;   /* NULL unless wanted */
     struct progress progress;
-    bool wants_pictures;
 };
 
 /* The reference's float picture against the exact one, with the error analysis. */
 static enum status judge_rounding(struct bench *bench)
 {
-    struct packed_scene packed;
-    struct picture_settings picture = bench->picture;
-    picture.warned = true;
-    enum status status = pack_scene(&bench->scene, &picture, &packed);
+    const double work = bench->effort->truth.explained;
+    struct grid_pixels of_float, exact = {0};
+    struct image image = {0};
+    enum status status = grid_render(&bench->packed, GRID_FLOAT, work, &bench->progress, 0, &of_float);
     if (status != STATUS_DONE)
         return status;
-    struct pixel_grid grid = pixel_grid_fitting(
-        picture.width, picture.height, bench_explained_pixels(&packed, bench->effort->explained_work));
-    size_t count = pixel_grid_count(&grid);
-    struct image image;
-    struct grid_pixels of_float = {.rgb = calloc(count, 3 * sizeof(double)),
-                                   .signatures = calloc(count, sizeof(uint32_t))};
-    struct grid_pixels exact = {.explanations = calloc(count, sizeof *exact.explanations)};
-    status = of_float.rgb && of_float.signatures && exact.explanations
-                 ? image_create(grid.columns, grid.rows, &image)
-                 : STATUS_UNABLE;
-    if (status == STATUS_DONE) {
-        status = pixel_grid_render(&packed, PRECISION_FLOAT, &grid, &of_float, NULL, 0);
-        if (status == STATUS_DONE)
-            status = pixel_grid_render(&packed, PRECISION_QUAD, &grid, &exact, &bench->progress,
-                                       bench->effort->explained_share);
-        for (size_t i = 0; i < 3 * count; ++i)
-            image.rgb[i] = (float)of_float.rgb[i];
-        if (status == STATUS_DONE)
-            status = judge_picture(&image, of_float.signatures, exact.explanations, &bench->result.rounding);
-        if (status == STATUS_DIFFERS)
-            status = STATUS_DONE; /* the result says so */
-        bench->result.rounding_pixels = count;
-        image_destroy(&image);
-    }
-    free(of_float.rgb);
-    free(of_float.signatures);
-    free(exact.explanations);
-    pack_destroy(&packed);
-    return status;
-}
-
-/* Says how long the step took that began at *since. */
-static void log_step(const struct bench *bench, const char *step, double *since)
-{
-    double now = clock_ms();
-    log_info("%s: %s: %.1f s", bench->path, step, (now - *since) / 1000);
-    *since = now;
-}
-
-static enum status find_truth(struct bench *bench, unsigned deepest)
-{
-    const struct effort *effort = bench->effort;
-    double since = clock_ms();
-    enum status status = ground_truth_create(&bench->scene, bench->picture, deepest, &effort->truth,
-                                             &bench->progress, effort->truth_share, &bench->truth);
-    log_step(bench, "truth", &since);
+    status = image_create(of_float.grid.columns, of_float.grid.rows, &image);
+    size_t count = bench->result.rounding_pixels = pixel_grid_count(&of_float.grid);
+    for (size_t i = 0; status == STATUS_DONE && i < 3 * count; ++i)
+        image.rgb[i] = (float)of_float.rgb[i];
     if (status == STATUS_DONE)
-        status = ground_truth_create_filtered(&bench->scene, bench->picture, &effort->truth, &bench->progress,
-                                              effort->filtered_share, &bench->filtered);
-    log_step(bench, "truth for pixel samples", &since);
+        status =
+            grid_render(&bench->packed, GRID_EXPLAINED_QUAD, work, &bench->progress, ROUNDING_SHARE, &exact);
     if (status == STATUS_DONE)
-        status = judge_rounding(bench);
-    log_step(bench, "rounding", &since);
-    return status;
+        status = judge_picture(&image, of_float.signatures, exact.explanations, &bench->result.rounding);
+    grid_pixels_destroy(&of_float);
+    grid_pixels_destroy(&exact);
+    image_destroy(&image);
+    return status == STATUS_DIFFERS ? STATUS_DONE : status; /* the result says so */
 }
 
-static bool is_as_the_scene_says(const struct bench_setting *setting, enum backend backend)
+/* Whether device and reference agree in the scene's picture; and the pictures for the report. */
+static enum status compare_backends(struct bench *bench)
 {
-    return setting->family == (backend == BACKEND_CPU ? FAMILY_CPU : FAMILY_MODE) && !setting->fast &&
-           setting->precision == PRECISION_FLOAT && setting->threads == 0;
-}
-
-/* Keeps the device's exact picture to compare the reference's with. */
-static enum status compare_backends(struct bench *bench, const struct bench_setting *setting,
-                                    const struct image *image, struct image *device)
-{
-    if (is_as_the_scene_says(setting, BACKEND_VULKAN)) {
-        enum status status = image_create(image->width, image->height, device);
-        if (status == STATUS_DONE)
-            memcpy(device->rgb, image->rgb, (size_t)image->width * image->height * 3 * sizeof *image->rgb);
+    const struct picture_settings *picture = &bench->result.picture;
+    struct render_plan plan = {
+        .scene = &bench->packed, .window = {0, 0, picture->width, picture->height}, .quiet = true};
+    struct rendering reference, device = {0};
+    struct comparison comparison = {0};
+    enum status status = render_on_cpu(&plan, &reference);
+    if (status != STATUS_DONE)
         return status;
-    }
-    if (!is_as_the_scene_says(setting, BACKEND_CPU))
-        return STATUS_DONE;
-    enum status status = STATUS_DONE;
-    if (device->rgb) {
-        bench->result.has_agreement = true;
-        status = image_compare(device, image, NULL, &bench->result.agreement);
-    }
-    if (bench->wants_pictures && (status == STATUS_DONE || status == STATUS_DIFFERS))
-        return bench_pictures(device->rgb ? device : image, device->rgb ? image : NULL, &bench->pictures);
-    return status == STATUS_DIFFERS ? STATUS_DONE : status;
-}
-
-/* A family's next setting takes longer in proportion to its samples. */
-static enum status foresee(struct bench *bench, const struct bench_setting *setting, struct image *image,
-                           bool *too_long)
-{
-    *too_long = false;
-    struct bench_point *before = bench->count > 0 ? &bench->points[bench->count - 1] : NULL;
-    if (!before || before->setting.family != setting->family || before->setting.fast != setting->fast)
-        return STATUS_DONE;
-    const struct picture_settings *now = &setting->picture, *then = &before->setting.picture;
-    double more = (double)now->samples / then->samples * now->light_samples / then->light_samples;
-    double longest = bench->effort->longest_run_ms, warm_ms = 0;
-    if (more <= 1 || before->first_ms * more <= longest)
-        return STATUS_DONE;
-    enum status status = bench_point_run(before, image, &warm_ms);
-    *too_long = warm_ms * more > longest;
-    return status;
-}
-
-/* Readies every setting, and measures its error by its first picture. */
-static enum status start_points(struct bench *bench, const struct bench_setting *settings, size_t count,
-                                struct image *image)
-{
-    struct image device = {0};
-    enum status status = STATUS_DONE;
-    const struct bench_setting *skipped = NULL; /* with it the rest of its family */
-    for (size_t i = 0; i < count && status == STATUS_DONE; ++i) {
-        struct bench_point *point = &bench->points[bench->count];
-        bool too_long;
-        if (skipped && settings[i].family == skipped->family && settings[i].fast == skipped->fast)
-            continue;
-        if (settings[i].family >= FAMILY_MAX_ERROR &&
-            clock_ms() - bench->start_ms > bench->effort->whole_ms) {
-            log_warning("%s: no time for %zu of %zu settings", bench->path, count - i, count);
-            break;
-        }
-        status = foresee(bench, &settings[i], image, &too_long);
-        skipped = too_long ? &settings[i] : NULL;
-        if (too_long || status != STATUS_DONE)
-            continue;
-        *point = (struct bench_point){.setting = settings[i]};
-        status = bench_point_start(bench->context, &bench->scene, point, image);
-        progress_advance(&bench->progress, (uint64_t)(bench->effort->start_share / (double)count));
-        if (status == STATUS_UNABLE) {
-            log_warning("%s: left out: %s", bench->path, settings[i].label);
-            status = STATUS_DONE;
-            continue;
-        }
-        if (status != STATUS_DONE)
-            break;
-        ++bench->count;
-        status = bench_error_measure(
-            image, settings[i].family == FAMILY_SAMPLES ? &bench->filtered : &bench->truth, &point->error);
+    if (bench->context) {
+        status = render_on_device(bench->context, &plan, &device);
         if (status == STATUS_DONE)
-            status = compare_backends(bench, &settings[i], image, &device);
-        free(image->rgb64);
-        image->rgb64 = NULL;
+            status = image_compare(&device.image, &reference.image, NULL, &comparison);
+        bench->result.has_agreement = status == STATUS_DONE || status == STATUS_DIFFERS;
+        bench->result.differing = bench->result.has_agreement ? comparison.bit_differing : 0;
+        status = bench->result.has_agreement ? STATUS_DONE : status;
     }
-    image_destroy(&device);
+    if (status == STATUS_DONE && bench->options->wants_pictures)
+        status = bench->context ? report_pictures(&device.image, &reference.image, &bench->pictures)
+                                : report_pictures(&reference.image, NULL, &bench->pictures);
+    image_destroy(&device.image);
+    image_destroy(&reference.image);
     return status;
 }
 
-static enum status measure(struct bench *bench, unsigned deepest, bool has_secondary_rays)
+/* Whether the setting takes too long, by the last one of its family: times are in proportion to samples. That
+ * one is run warm if its first run, which compiles, does not tell. */
+static enum status foresee(struct bench *bench, const struct bench_setting *setting, bool *too_long)
 {
-    struct bench_choice choice = {
-        .picture = bench->picture,
-        .backend = bench->context ? BACKEND_VULKAN : BACKEND_CPU,
-        .has_float64 = bench->context && bench->context->has_float64,
-        .has_secondary_rays = has_secondary_rays,
-        .deepest = deepest,
-        .quick = bench->effort == &quick_effort,
-    };
-    for (size_t i = 0; i < bench->scene.light_count; ++i)
-        choice.has_quad_lights = choice.has_quad_lights || bench->scene.lights[i].type == LIGHT_QUAD;
-    struct bench_setting *settings = calloc(BENCH_MAX_SETTINGS, sizeof *settings);
-    bench->points = calloc(BENCH_MAX_SETTINGS, sizeof *bench->points);
-    struct image image = {0};
-    double since = clock_ms();
-    enum status status = settings && bench->points
-                             ? image_create(bench->picture.width, bench->picture.height, &image)
-                             : STATUS_UNABLE;
-    if (status == STATUS_DONE)
-        status = start_points(bench, settings, bench_settings(&choice, settings), &image);
-    free(settings);
-    log_step(bench, "first pictures", &since);
+    const struct bench_result *result = &bench->result;
+    struct bench_point *last = result->count > 0 ? &result->points[result->count - 1] : NULL;
+    *too_long = false;
+    if (!last || last->setting.family != setting->family)
+        return STATUS_DONE;
+    const struct picture_settings *now = &setting->picture, *then = &last->setting.picture;
+    double more = (double)now->samples / then->samples * now->light_samples / then->light_samples;
+    double longest_ms = bench->effort->longest_run_ms / more, warm_ms = 0;
+    if (more <= 1 || last->first_ms <= longest_ms)
+        return STATUS_DONE;
+    enum status status = bench_point_run(last, &bench->image, &warm_ms);
+    *too_long = warm_ms > longest_ms;
+    return status;
+}
+
+/* Readies a setting, and measures its error by its first picture. What the device cannot do is left out. */
+static enum status start_point(struct bench *bench, const struct bench_setting *setting)
+{
+    struct bench_result *result = &bench->result;
+    struct bench_point *point = &result->points[result->count];
+    *point = (struct bench_point){.setting = *setting};
+    enum status status = bench_point_start(bench->context, &bench->scene, point, &bench->image);
+    if (status == STATUS_UNABLE) {
+        log_warning("%s: left out: %s", result->path, setting->label);
+        return STATUS_DONE;
+    }
+    if (status != STATUS_DONE)
+        return status;
+    ++result->count;
+    return bench_error_measure(
+        &bench->image, setting->family == FAMILY_SAMPLES ? &result->filtered : &result->truth, &point->error);
+}
+
+static enum status start_points(struct bench *bench, const struct bench_setting *settings, size_t count)
+{
+    enum status status = STATUS_DONE;
+    for (size_t i = 0; i < count && status == STATUS_DONE; ++i) {
+        bool late = clock_ms() - bench->start_ms > bench->effort->whole_ms;
+        if (late && settings[i].family >= FAMILY_MAX_ERROR) {
+            log_warning("%s: no time for %zu of %zu settings", bench->result.path, count - i, count);
+            break;
+        }
+        bool too_long;
+        status = foresee(bench, &settings[i], &too_long);
+        if (status == STATUS_DONE && !too_long)
+            status = start_point(bench, &settings[i]);
+        progress_advance(&bench->progress, START_SHARE / count);
+    }
+    return status;
+}
+
+static enum status measure(struct bench *bench)
+{
+    struct bench_result *result = &bench->result;
+    struct bench_setting settings[BENCH_MAX_SETTINGS];
+    result->points = calloc(BENCH_MAX_SETTINGS, sizeof *result->points);
+    if (!result->points) {
+        log_error("%s: no memory for the settings of a bench", result->path);
+        return STATUS_UNABLE;
+    }
+    enum status status = start_points(bench, settings, bench_settings(&bench->choice, settings));
     if (status == STATUS_DONE && bench->context)
-        status = bench_count_rays(bench->context, bench->points, bench->count);
-    log_step(bench, "rays", &since);
+        status = bench_count_rays(bench->context, result->points, result->count);
     struct run_limits limits = bench->effort->limits;
     double left = bench->effort->whole_ms - (clock_ms() - bench->start_ms);
-    limits.all_ms = fmin(limits.all_ms, fmax(left, 0));
+    limits.all_ms = fmin(limits.all_ms, fmax(left, 1));
     if (status == STATUS_DONE)
-        status = bench_run_rounds(bench->points, bench->count, &limits, &image, &bench->progress);
-    log_step(bench, "warm runs", &since);
-    image_destroy(&image);
+        status = bench_run_rounds(result->points, result->count, &limits, &bench->image, &bench->progress,
+                                  RUNS_SHARE);
     return status;
 }
 
-static json_t *describe(struct bench *bench)
+/* What there is to turn in the scene, which has been read. */
+static void choose(struct bench *bench)
 {
-    bool discrete =
-        bench->context && (bench->context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU ||
-                           bench->context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU);
-    bench_mark_pareto(bench->points, bench->count);
-    bench->result.path = bench->path;
-    bench->result.picture = bench->picture;
-    bench->result.points = bench->points;
-    bench->result.count = bench->count;
-    bench->result.truth = &bench->truth;
-    bench->result.filtered = &bench->filtered;
-    bench->result.meters_device = !discrete;
-    json_t *document = bench_scene_document(&bench->result);
-    if (document && bench->pictures)
-        json_object_set(document, "pictures", bench->pictures);
-    return document;
+    const struct scene *scene = &bench->scene;
+    const struct bench_options *options = bench->options;
+    struct bench_choice *choice = &bench->choice;
+    choice->picture = bench->result.picture = (struct picture_settings){
+        .width = options->width ? options->width : scene->width,
+        .height = options->height ? options->height : scene->height,
+        .max_bounces = scene->max_bounces,
+        .samples = 1,
+        .light_samples = scene->light_samples,
+    };
+    choice->backend = bench->context ? BACKEND_VULKAN : BACKEND_CPU;
+    choice->has_float64 = bench->context && bench->context->has_float64;
+    for (size_t i = 0; i < scene->object_count; ++i)
+        choice->has_secondary_rays |= scene->materials[scene->objects[i].material].type != MATERIAL_MATTE;
+    for (size_t i = 0; i < scene->light_count; ++i)
+        choice->has_quad_lights |= scene->lights[i].type == LIGHT_QUAD;
+    choice->deepest = scene->max_bounces;
+    choice->quick = options->quick;
+    bench->result.sampled = choice->has_quad_lights;
 }
 
-/* Warns, once, of what is doubtful in the scene. */
-static enum status try_scene(const struct bench *bench)
+/* All steps, with the scene read. */
+static enum status run(struct bench *bench)
 {
-    struct packed_scene packed;
-    enum status status = pack_scene(&bench->scene, &bench->picture, &packed);
+    struct bench_result *result = &bench->result;
+    const struct truth_effort *effort = &bench->effort->truth;
+    choose(bench);
+    struct picture_settings deep = result->picture;
+    enum status status = pack_scene(&bench->scene, &result->picture, &bench->packed);
+    if (status == STATUS_DONE && bench->choice.has_secondary_rays)
+        status = ground_truth_bounces(&bench->packed, &bench->choice.deepest);
+    deep.max_bounces = bench->choice.deepest;
     if (status == STATUS_DONE)
-        pack_destroy(&packed);
+        status = ground_truth_create(&bench->scene, deep, result->sampled ? TRUTH_OF_LIGHTS : TRUTH_EXACT,
+                                     effort, &bench->progress, TRUTH_SHARE, &result->truth);
+    if (status == STATUS_DONE)
+        status = ground_truth_create(&bench->scene, result->picture, TRUTH_OF_SAMPLES, effort,
+                                     &bench->progress, FILTERED_SHARE, &result->filtered);
+    if (status == STATUS_DONE)
+        status = judge_rounding(bench);
+    if (status == STATUS_DONE)
+        status = measure(bench);
+    if (status == STATUS_DONE)
+        status = compare_backends(bench);
     return status;
+}
+
+static enum status describe(struct bench *bench, json_t **document)
+{
+    bench_mark_pareto(bench->result.points, bench->result.count);
+    *document = bench_scene_document(&bench->result);
+    if (*document && (!bench->pictures || json_object_set(*document, "pictures", bench->pictures) == 0))
+        return STATUS_DONE;
+    log_error("no memory for the result of %s, or its name is not UTF-8", bench->result.path);
+    json_decref(*document);
+    *document = NULL;
+    return STATUS_UNABLE;
 }
 
 enum status bench_scene(const struct bench_options *options, struct vulkan_context *context, const char *path,
                         json_t **document)
 {
-    const struct effort *effort = options->quick ? &quick_effort : &full_effort;
     struct bench bench = {
+        .options = options,
         .context = context,
-        .path = path,
-        .effort = effort,
+        .effort = options->quick ? &quick_effort : &full_effort,
         .start_ms = clock_ms(),
-        .wants_pictures = options->wants_pictures,
+        .result.path = path,
     };
-    unsigned deepest;
-    bool has_secondary_rays;
     *document = NULL;
     enum status status = scene_read(path, &bench.scene);
     if (status != STATUS_DONE)
         return status;
-    bench.picture = (struct picture_settings){
-        .width = options->width ? options->width : bench.scene.width,
-        .height = options->height ? options->height : bench.scene.height,
-        .max_bounces = bench.scene.max_bounces,
-        .samples = 1,
-        .light_samples = bench.scene.light_samples,
-    };
+    scene_warn(&bench.scene);
     progress_start(&bench.progress, path,
-                   (uint64_t)(effort->truth_share + effort->filtered_share + effort->explained_share +
-                              effort->start_share + effort->limits.all_ms),
-                   options->quiet);
-    status = try_scene(&bench);
-    if (status == STATUS_DONE)
-        status = bench_deepest(&bench.scene, &bench.picture, &deepest, &has_secondary_rays);
-    if (status == STATUS_DONE)
-        status = find_truth(&bench, deepest);
-    if (status == STATUS_DONE)
-        status = measure(&bench, deepest, has_secondary_rays);
+                   TRUTH_SHARE + FILTERED_SHARE + ROUNDING_SHARE + START_SHARE + RUNS_SHARE, options->quiet);
+    status = run(&bench);
     progress_end(&bench.progress);
-    if (status == STATUS_DONE) {
-        *document = describe(&bench);
-        if (!*document) {
-            log_error("no memory for the result of %s, or its name is not UTF-8", path);
-            status = STATUS_UNABLE;
-        }
-    }
-    for (size_t i = 0; i < bench.count; ++i)
-        bench_point_destroy(&bench.points[i]);
-    free(bench.points);
+    if (status == STATUS_DONE)
+        status = describe(&bench, document);
+    for (size_t i = 0; i < bench.result.count; ++i)
+        bench_point_destroy(&bench.result.points[i]);
+    free(bench.result.points);
     json_decref(bench.pictures);
-    ground_truth_destroy(&bench.truth);
-    ground_truth_destroy(&bench.filtered);
+    image_destroy(&bench.image);
+    grid_pixels_destroy(&bench.result.truth.pixels);
+    grid_pixels_destroy(&bench.result.filtered.pixels);
+    pack_destroy(&bench.packed);
     scene_destroy(&bench.scene);
     return status;
 }

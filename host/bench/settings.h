@@ -14,8 +14,6 @@ enum bench_family {
     FAMILY_SAMPLES,
 };
 
-const char *bench_family_name(enum bench_family family);
-
 /* One way to render the scene. */
 struct bench_setting {
     enum bench_family family;
@@ -40,8 +38,7 @@ struct bench_choice {
 
 enum { BENCH_MAX_SETTINGS = 96 };
 
-/* The settings worth measuring, a family's cheapest first. Returns their number, at most BENCH_MAX_SETTINGS.
- */
-size_t bench_settings(const struct bench_choice *choice, struct bench_setting *settings);
+/* The settings worth measuring, a family's cheapest first. Returns their number. */
+size_t bench_settings(const struct bench_choice *choice, struct bench_setting settings[BENCH_MAX_SETTINGS]);
 
 #endif

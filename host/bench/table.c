@@ -4,82 +4,76 @@
 #include <string.h>
 
 #include "base/output_file.h"
-#include "bench/json_value.h"
+#include "bench/document.h"
 
-/* Null stands for what is not finite. */
-static double number_of(const json_t *object, const char *key)
+static double spread_ms(const json_t *point)
 {
-    double value = json_number_at(object, key);
-    return isnan(value) ? INFINITY : value;
+    const json_t *quartiles = json_object_get(point, "time_quartiles_ms");
+    return (json_number_value(json_array_get(quartiles, 1)) -
+            json_number_value(json_array_get(quartiles, 0))) /
+           2;
 }
 
-static void print_point(const json_t *point, int options_width, FILE *stream)
-{
-    const json_t *error = json_object_get(point, "error"), *quartiles;
-    const char *options = json_text_at(point, "options");
-    quartiles = json_object_get(point, "time_quartiles_ms");
-    double spread =
-        (json_number_value(json_array_get(quartiles, 1)) - json_number_value(json_array_get(quartiles, 0))) /
-        2;
-    fprintf(stream, "%c %-*s %9.2f %7.2f %8.1f  %8.2g %8.2g %8.2g %8.2g %8.2g %8lld\n",
-            json_is_true(json_object_get(point, "pareto")) ? '*' : ' ', options_width,
-            *options ? options : "(as the scene says)", number_of(point, "time_ms"), spread,
-            number_of(point, "rays_per_second") * 1e-6, number_of(error, "max"), number_of(error, "rmse"),
-            number_of(error, "absolute_999"), number_of(error, "relative_median"),
-            number_of(error, "relative_999"),
-            (long long)json_integer_value(json_object_get(error, "pixels_off_8bit")));
-}
-
+/* The points against the one truth or the other. */
 static void print_points(const json_t *scene, bool filtered, FILE *stream)
 {
+    static const char as_it_is[] = "(as the scene says)";
     const json_t *points = json_object_get(scene, "points"), *point;
     size_t i;
-    int width = (int)strlen("(as the scene says)"), count = 0;
+    int width = (int)strlen(as_it_is), count = 0;
     json_array_foreach(points, i, point)
     {
-        int length = (int)strlen(json_text_at(point, "options"));
+        int length = (int)strlen(bench_text(point, "options"));
         width = length > width ? length : width;
-        count += (strcmp(json_text_at(point, "family"), "samples") == 0) == filtered;
+        count += bench_is_filtered(point) == filtered;
     }
     if (count == 0)
         return;
-    fprintf(stream, "\nagainst %s\n", json_text_at(scene, filtered ? "truth_samples" : "truth"));
+    fprintf(stream, "\nagainst %s\n", bench_text(scene, filtered ? "truth_samples" : "truth"));
     fprintf(stream, "  %-*s %9s %7s %8s  %8s %8s %8s %8s %8s %8s\n", width, "", "time", "+-", "Mrays/s",
             "max", "RMSE", "99.9 %", "relative", "99.9 %", "8-bit");
     json_array_foreach(points, i, point)
     {
-        if ((strcmp(json_text_at(point, "family"), "samples") == 0) == filtered)
-            print_point(point, width, stream);
+        const json_t *error = json_object_get(point, "error");
+        const char *options = bench_text(point, "options");
+        if (bench_is_filtered(point) == filtered)
+            fprintf(stream, "%c %-*s %9.2f %7.2f %8.1f  %8.2g %8.2g %8.2g %8.2g %8.2g %8.0f\n",
+                    json_is_true(json_object_get(point, "pareto")) ? '*' : ' ', width,
+                    *options ? options : as_it_is, bench_number(point, "time_ms"), spread_ms(point),
+                    bench_number(point, "rays_per_second") * 1e-6, bench_number(error, "max"),
+                    bench_number(error, "rmse"), bench_number(error, "absolute_999"),
+                    bench_number(error, "relative_median"), bench_number(error, "relative_999"),
+                    bench_number(error, "pixels_off_8bit"));
     }
 }
 
-static void print_convergence(const json_t *scene, FILE *stream)
+static void print_conclusions(const json_t *scene, FILE *stream)
 {
-    const json_t *family;
+    const json_t *agreement = json_object_get(scene, "agreement"),
+                 *rounding = json_object_get(scene, "rounding"), *line;
     size_t i;
-    json_array_foreach(json_object_get(scene, "convergence"), i, family)
+    json_array_foreach(json_object_get(scene, "convergence"), i, line)
     {
-        double slope = number_of(family, "slope");
+        double slope = bench_number(line, "slope");
         if (isfinite(slope))
-            fprintf(stream, "RMSE falls as N^%.2f with %s from %lld to %lld\n", slope,
-                    json_text_at(family, "family"),
-                    (long long)json_integer_value(json_object_get(family, "slope_from")),
-                    (long long)json_integer_value(json_object_get(family, "slope_to")));
+            fprintf(stream, "RMSE falls as N^%.2f with %s from %.0f to %.0f\n", slope,
+                    bench_text(line, "family"), bench_number(line, "slope_from"),
+                    bench_number(line, "slope_to"));
     }
-}
-
-static void print_recommendations(const json_t *scene, FILE *stream)
-{
-    const json_t *line;
-    size_t i;
+    if (json_is_object(agreement))
+        fprintf(stream, "device and reference: %.0f of %.0f pixels differ\n",
+                bench_number(agreement, "differing_pixels"), bench_number(agreement, "pixels"));
+    fprintf(stream, "rounding: relative error median %.2g, 99 %% %.2g, max %.2g; %.0f pixels unexplained\n",
+            bench_number(rounding, "median"), bench_number(rounding, "p99"), bench_number(rounding, "max"),
+            bench_number(rounding, "unexplained"));
     fputs("fastest settings with 99.9 % of the pixels within an error:\n", stream);
     json_array_foreach(json_object_get(scene, "recommendations"), i, line)
     {
         const char *options = json_string_value(json_object_get(line, "options"));
-        fprintf(stream, "  %-6g ", number_of(line, "error"));
+        fprintf(stream, "  %-6g ", bench_number(line, "error"));
         if (options)
             fprintf(stream, "%s (%.3g ms)\n", *options ? options : "as the scene says",
-                    number_of(line, "time_ms"));
+                    bench_number(line, "time_ms"));
         else
             fputs("none measured\n", stream);
     }
@@ -87,39 +81,31 @@ static void print_recommendations(const json_t *scene, FILE *stream)
 
 void bench_print_scene(const json_t *scene, FILE *stream)
 {
-    const json_t *agreement = json_object_get(scene, "agreement"),
-                 *rounding = json_object_get(scene, "rounding");
-    fprintf(stream, "%s: %lldx%lld; times in ms: median and half the distance of the quartiles; errors in\n",
-            json_text_at(scene, "scene"), (long long)json_integer_value(json_object_get(scene, "width")),
-            (long long)json_integer_value(json_object_get(scene, "height")));
+    fprintf(stream, "%s: %.0fx%.0f; times in ms: median and half the distance of the quartiles; errors in\n",
+            bench_text(scene, "scene"), bench_number(scene, "width"), bench_number(scene, "height"));
     fputs("linear radiance: largest, RMSE and of 99.9 % of the pixels; relative: of 50 % and 99.9 %; 8-bit:\n"
           "pixels off by more than a step. * marks what nothing beats in both time and the error of 99.9 %\n",
           stream);
     print_points(scene, false, stream);
     print_points(scene, true, stream);
     fputc('\n', stream);
-    print_convergence(scene, stream);
-    if (json_is_object(agreement))
-        fprintf(stream, "device and reference: %lld of %lld pixels differ\n",
-                (long long)json_integer_value(json_object_get(agreement, "differing_pixels")),
-                (long long)json_integer_value(json_object_get(agreement, "pixels")));
-    if (json_is_object(rounding))
-        fprintf(stream,
-                "rounding: relative error median %.2g, 99 %% %.2g, max %.2g; %lld pixels unexplained\n",
-                number_of(rounding, "median"), number_of(rounding, "p99"), number_of(rounding, "max"),
-                (long long)json_integer_value(json_object_get(rounding, "unexplained")));
-    print_recommendations(scene, stream);
+    print_conclusions(scene, stream);
+}
+
+static void put(struct output_file *file, const char *text)
+{
+    output_file_write(file, text, strlen(text));
 }
 
 /* A field: text in quotes, numbers as they are, null empty. */
-static void write_field(struct output_file *file, const json_t *value, bool last)
+static void put_field(struct output_file *file, const json_t *value)
 {
     char number[64] = "";
     if (json_is_string(value)) {
-        output_file_write(file, "\"", 1);
+        put(file, "\"");
         for (const char *text = json_string_value(value); *text; ++text)
-            output_file_write(file, *text == '"' ? "\"\"" : text, *text == '"' ? 2 : 1);
-        output_file_write(file, "\"", 1);
+            put(file, *text == '"' ? "\"\"" : (char[]){*text, '\0'});
+        put(file, "\"");
     } else if (json_is_integer(value)) {
         snprintf(number, sizeof number, "%lld", (long long)json_integer_value(value));
     } else if (json_is_real(value)) {
@@ -127,78 +113,56 @@ static void write_field(struct output_file *file, const json_t *value, bool last
     } else if (json_is_boolean(value)) {
         snprintf(number, sizeof number, "%d", json_is_true(value));
     }
-    output_file_write(file, number, strlen(number));
-    output_file_write(file, last ? "\r\n" : ",", last ? 2 : 1);
+    put(file, number);
 }
 
-/* What stands at a path of keys, separated by dots; a digit is an index. */
-static const json_t *value_at(const json_t *value, const char *path)
+/* The fields of a value, or with names_only their names: those of an object's or array's elements are its own
+ * and theirs, as in error_rmse. Each field but the first of a line, which is the scene, has a comma before
+ * it. */
+static void put_fields(struct output_file *file, const char *name, json_t *value, bool names_only)
 {
-    while (value && *path) {
-        char key[32];
-        size_t length = strcspn(path, ".");
-        snprintf(key, sizeof key, "%.*s", (int)length, path);
-        value = json_is_array(value) ? json_array_get(value, (size_t)(key[0] - '0'))
-                                     : json_object_get(value, key);
-        path += length + (path[length] == '.');
+    char longer[100];
+    const char *key;
+    json_t *element;
+    size_t i;
+    json_object_foreach(value, key, element)
+    {
+        snprintf(longer, sizeof longer, "%s%s%s", name, *name ? "_" : "", key);
+        put_fields(file, longer, element, names_only);
     }
-    return value;
+    json_array_foreach(value, i, element)
+    {
+        snprintf(longer, sizeof longer, "%s_%zu", name, i + 1);
+        put_fields(file, longer, element, names_only);
+    }
+    if (json_is_object(value) || json_is_array(value))
+        return;
+    put(file, ",");
+    if (names_only)
+        put(file, name);
+    else
+        put_field(file, value);
 }
 
 enum status bench_csv_write(const json_t *document, const char *path)
 {
-    static const struct {
-        const char *name, *path;
-    } fields[] = {
-        {"label", "label"},
-        {"options", "options"},
-        {"family", "family"},
-        {"backend", "backend"},
-        {"threads", "threads"},
-        {"precision", "precision"},
-        {"mode", "mode"},
-        {"max_error", "max_error"},
-        {"max_bounces", "max_bounces"},
-        {"light_samples", "light_samples"},
-        {"samples", "samples"},
-        {"time_ms", "time_ms"},
-        {"time_quartile_1_ms", "time_quartiles_ms.0"},
-        {"time_quartile_3_ms", "time_quartiles_ms.1"},
-        {"runs", "runs"},
-        {"first_ms", "first_ms"},
-        {"setup_ms", "setup_ms"},
-        {"primary_rays", "rays.primary"},
-        {"secondary_rays", "rays.secondary"},
-        {"shadow_rays", "rays.shadow"},
-        {"rays_per_second", "rays_per_second"},
-        {"energy_joules", "energy_joules"},
-        {"error_max", "error.max"},
-        {"error_rmse", "error.rmse"},
-        {"error_absolute_999", "error.absolute_999"},
-        {"error_relative_median", "error.relative_median"},
-        {"error_relative_999", "error.relative_999"},
-        {"pixels_off_8bit", "error.pixels_off_8bit"},
-        {"pareto", "pareto"},
-    };
-    const size_t field_count = sizeof fields / sizeof *fields;
+    json_t *scene, *point;
+    size_t s, p;
     struct output_file file;
     enum status status = output_file_open(path, &file);
     if (status != STATUS_DONE)
         return status;
-    output_file_write(&file, "scene", 5);
-    for (size_t f = 0; f < field_count; ++f) {
-        output_file_write(&file, ",", 1);
-        output_file_write(&file, fields[f].name, strlen(fields[f].name));
-    }
-    output_file_write(&file, "\r\n", 2);
-    const json_t *scene, *point;
-    size_t s, p;
     json_array_foreach(json_object_get(document, "scenes"), s, scene)
         json_array_foreach(json_object_get(scene, "points"), p, point)
     {
-        write_field(&file, json_object_get(scene, "scene"), false);
-        for (size_t f = 0; f < field_count; ++f)
-            write_field(&file, value_at(point, fields[f].path), f + 1 == field_count);
+        if (s == 0 && p == 0) {
+            put(&file, "scene");
+            put_fields(&file, "", point, true);
+            put(&file, "\r\n");
+        }
+        put_field(&file, json_object_get(scene, "scene"));
+        put_fields(&file, "", point, false);
+        put(&file, "\r\n");
     }
     return output_file_commit(&file);
 }

@@ -6,8 +6,8 @@
 
 #include "base/status.h"
 
-/* What bench_document.h makes of a scene, for people: a line a setting, then the fitted slopes, what device
- * and reference agree in, and a recommendation for each of four errors. */
+/* A scene of the bench document for people: a line a setting, then the fitted slopes, what device and
+ * reference agree in, and a recommendation for each of four errors. */
 void bench_print_scene(const json_t *scene, FILE *stream);
 
 /* All points of all scenes of the document, one a line under a line of names (RFC 4180). The file appears

@@ -1,21 +1,12 @@
 #include "check/compare.h"
 
 #include <math.h>
-#include <stdbool.h>
-#include <stdint.h>
+#include <stdio.h>
 #include <string.h>
-
-#include "image/formats.h"
-#include "image/viridis.h"
 
 static bool same_bits(double a, double b)
 {
     return memcmp(&a, &b, sizeof a) == 0;
-}
-
-static double larger_magnitude(double a, double b)
-{
-    return fmax(fabs(a), fabs(b));
 }
 
 /* |a - b|; see struct comparison for what is not finite. */
@@ -34,24 +25,24 @@ static bool agree(double a, double b, const struct tolerance *tolerance)
         return same_bits(a, b);
     if (isnan(a) && isnan(b))
         return true;
-    double bound = tolerance->absolute + tolerance->relative * larger_magnitude(a, b);
+    double bound = tolerance->absolute + tolerance->relative * fmax(fabs(a), fabs(b));
     return isfinite(a) && isfinite(b) && channel_error(a, b) <= bound;
 }
 
-/* The largest error so far of one kind, and where. */
+/* The largest error so far of one kind, and of which channel value. */
 struct worst {
     bool any;
     double error;
-    unsigned x, y, channel;
+    size_t index;
 };
 
-static void note(struct worst *worst, double error, unsigned x, unsigned y, unsigned channel)
+static void note(struct worst *worst, double error, size_t index)
 {
     if (!worst->any || error > worst->error)
-        *worst = (struct worst){true, error, x, y, channel};
+        *worst = (struct worst){true, error, index};
 }
 
-static bool same_size(const struct image *a, const struct image *b)
+bool image_same_size(const struct image *a, const struct image *b)
 {
     if (a->width == b->width && a->height == b->height)
         return true;
@@ -60,7 +51,6 @@ static bool same_size(const struct image *a, const struct image *b)
     return false;
 }
 
-/* In the best precision that the picture has. */
 static double value_at(const struct image *image, size_t index)
 {
     return image->rgb64 ? image->rgb64[index] : (double)image->rgb[index];
@@ -70,92 +60,56 @@ enum status image_compare(const struct image *a, const struct image *b, const st
                           struct comparison *comparison)
 {
     *comparison = (struct comparison){0};
-    if (!same_size(a, b))
+    if (!image_same_size(a, b))
         return STATUS_REFUSED;
-
-    struct worst disagreeing = {0}, unequal = {0};
-    for (unsigned y = 0; y < a->height; y++) {
-        size_t row = (size_t)y * a->width * 3;
-        for (unsigned x = 0; x < a->width; x++) {
-            bool pixel_same = true, pixel_agrees = true;
-            for (unsigned channel = 0; channel < 3; channel++) {
-                double value_a = value_at(a, row + (size_t)x * 3 + channel);
-                double value_b = value_at(b, row + (size_t)x * 3 + channel);
-                if (same_bits(value_a, value_b))
-                    continue;
-                pixel_same = false;
-                double error = channel_error(value_a, value_b);
-                note(&unequal, error, x, y, channel);
-                if (agree(value_a, value_b, tolerance))
-                    continue;
-                pixel_agrees = false;
-                note(&disagreeing, error, x, y, channel);
-            }
-            comparison->bit_differing += !pixel_same;
-            comparison->differing += !pixel_agrees;
-        }
+    if (!a->rgb64 != !b->rgb64) {
+        log_error("cannot compare a picture in double precision with one in float");
+        return STATUS_REFUSED;
     }
-
+    struct worst disagreeing = {0}, unequal = {0};
+    const size_t pixels = (size_t)a->width * a->height;
+    for (size_t pixel = 0; pixel < pixels; ++pixel) {
+        bool pixel_same = true, pixel_agrees = true;
+        for (size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
+            double value_a = value_at(a, i), value_b = value_at(b, i);
+            if (same_bits(value_a, value_b))
+                continue;
+            pixel_same = false;
+            double error = channel_error(value_a, value_b);
+            note(&unequal, error, i);
+            if (agree(value_a, value_b, tolerance))
+                continue;
+            pixel_agrees = false;
+            note(&disagreeing, error, i);
+        }
+        comparison->bit_differing += !pixel_same;
+        comparison->differing += !pixel_agrees;
+    }
     const struct worst *worst = disagreeing.any ? &disagreeing : &unequal;
+    comparison->width = a->width;
+    comparison->height = a->height;
     comparison->max_error = worst->error;
-    comparison->x = worst->x;
-    comparison->y = worst->y;
-    comparison->channel = worst->channel;
+    comparison->x = pixels ? (unsigned)(worst->index / 3 % a->width) : 0;
+    comparison->y = pixels ? (unsigned)(worst->index / 3 / a->width) : 0;
+    comparison->channel = (unsigned)(worst->index % 3);
     return comparison->differing > 0 ? STATUS_DIFFERS : STATUS_DONE;
 }
 
-void heatmap_color(const float *a, const float *b, uint8_t *rgb)
+static const char *const channels[] = {"r", "g", "b"};
+
+void comparison_print(const struct comparison *comparison, const char *scene, size_t allowed)
 {
-    if (memcmp(a, b, 3 * sizeof(float)) == 0) {
-        memset(rgb, 0, 3);
-        return;
-    }
-    double relative_error = 0.0;
-    for (int c = 0; c < 3; c++) {
-        if (same_bits(a[c], b[c]))
-            continue;
-        if (!isfinite(a[c]) || !isfinite(b[c])) {
-            memset(rgb, 255, 3);
-            return;
-        }
-        double magnitude = larger_magnitude(a[c], b[c]);
-        relative_error = fmax(relative_error, magnitude > 0.0 ? channel_error(a[c], b[c]) / magnitude : 0.0);
-    }
-    double level = relative_error > 0.0 ? 1.0 + log2(relative_error) / 24.0 : 0.0;
-    viridis(level, rgb);
+    printf("%s: %zu of %zu pixels differ, max error %.9g @ (%u, %u, %s)%s\n", scene, comparison->differing,
+           (size_t)comparison->width * comparison->height, comparison->max_error, comparison->x,
+           comparison->y, channels[comparison->channel], comparison->differing <= allowed ? "" : "  DIFFERS");
 }
 
-struct pair {
-    const struct image *a, *b;
-};
-
-static void encode_heat_row(const void *context, unsigned y, uint8_t *rgb)
+json_t *comparison_json(const struct comparison *comparison, const char *scene, size_t allowed)
 {
-    const struct pair *pair = context;
-    size_t start = (size_t)y * pair->a->width * 3;
-    for (size_t x = 0; x < pair->a->width; x++)
-        heatmap_color(pair->a->rgb + start + x * 3, pair->b->rgb + start + x * 3, rgb + x * 3);
-}
-
-enum status heatmap_write(const struct image *a, const struct image *b, const char *path)
-{
-    if (!same_size(a, b))
-        return STATUS_REFUSED;
-    const struct pair pair = {a, b};
-    const struct png_text texts[] = {
-        {"Software", "vkwhitted"},
-        {"Description",
-         "largest relative error of a pixel's channels, logarithmic: violet 2^-24, blue 2^-18, "
-         "teal 2^-12, green 2^-6, yellow 1; black: same bits; white: not finite"},
-    };
-    const struct png_source source = {
-        .width = a->width,
-        .height = a->height,
-        .transfer = TRANSFER_SRGB,
-        .texts = texts,
-        .text_count = (int)(sizeof texts / sizeof texts[0]),
-        .encode_row = encode_heat_row,
-        .context = &pair,
-    };
-    return png_write(&source, path);
+    return json_pack("{s:s, s:b, s:i, s:i, s:I, s:I, s:o, s:{s:i, s:i, s:s}}", "scene", scene, "agrees",
+                     comparison->differing <= allowed, "width", (int)comparison->width, "height",
+                     (int)comparison->height, "differing_pixels", (json_int_t)comparison->differing,
+                     "bit_differing_pixels", (json_int_t)comparison->bit_differing, "max_error",
+                     json_real_or_null(comparison->max_error), "at", "x", (int)comparison->x, "y",
+                     (int)comparison->y, "channel", channels[comparison->channel]);
 }

@@ -1,10 +1,7 @@
 #ifndef VKWHITTED_CHECK_COMPARE_H
 #define VKWHITTED_CHECK_COMPARE_H
 
-#include <stddef.h>
-#include <stdint.h>
-
-#include "base/status.h"
+#include "base/json.h"
 #include "image/image.h"
 
 /* Two channel values a and b agree if |a - b| <= absolute + relative * max(|a|, |b|), or if both are NaN.
@@ -14,6 +11,7 @@ struct tolerance {
 };
 
 struct comparison {
+    unsigned width, height;
     size_t differing;     /* pixels with a channel that does not agree */
     size_t bit_differing; /* pixels with a channel that is not the same bit for bit */
 
@@ -25,21 +23,21 @@ struct comparison {
     unsigned x, y, channel;
 };
 
-/* Compares two pictures; bit for bit if tolerance is NULL: then -0 and +0 do not agree, and NaNs agree only
- * if they are the same bits. STATUS_DONE if all pixels agree, otherwise STATUS_DIFFERS, without a message;
- * STATUS_REFUSED (reported, *comparison all 0) where the sizes differ. */
+/* Compares two pictures, in double where both have it; bit for bit if tolerance is NULL: then -0 and +0 do
+ * not agree, and NaNs agree only if they are the same bits. STATUS_DONE if all pixels agree, otherwise
+ * STATUS_DIFFERS, without a message; STATUS_REFUSED (reported, *comparison all 0) where the sizes differ, or
+ * where one picture has double precision and the other has not: they are not two tries at the same picture.
+ */
 enum status image_compare(const struct image *a, const struct image *b, const struct tolerance *tolerance,
                           struct comparison *comparison);
 
-/* The 8-bit colour of the difference between two pixels in the picture that heatmap_write() writes. */
-void heatmap_color(const float *a, const float *b, uint8_t *rgb);
+/* Whether the pictures have the same size; reports it if not. */
+bool image_same_size(const struct image *a, const struct image *b);
 
-/* Writes an 8-bit PNG (whole or not at all, see output_file.h) that shows where two pictures differ: each
- * pixel its largest relative error over the channels, |a - b| / max(|a|, |b|), on a logarithmic scale in the
- * colours of viridis. Dark violet is 2^-24 (half a unit in the last place of a float) or less, blue 2^-18,
- * teal 2^-12, green 2^-6, yellow 1 or more. Black: the same bits; white: not the same bits, and not finite
- * on one side at least.
- * STATUS_REFUSED (reported) where the sizes differ, STATUS_UNABLE (reported) where it cannot be written. */
-enum status heatmap_write(const struct image *a, const struct image *b, const char *path);
+/* Prints in a line how a scene's pictures compare, of which so many pixels are allowed to differ. */
+void comparison_print(const struct comparison *comparison, const char *scene, size_t allowed);
+
+/* The same as a JSON object; NULL without memory or where the scene's name is not UTF-8. */
+json_t *comparison_json(const struct comparison *comparison, const char *scene, size_t allowed);
 
 #endif

@@ -1,6 +1,7 @@
 #ifndef VKWHITTED_CHECK_JUDGE_H
 #define VKWHITTED_CHECK_JUDGE_H
 
+#include "base/json.h"
 #include "image/image.h"
 #include "reference.h"
 
@@ -20,6 +21,14 @@ struct judgement {
  * STATUS_DIFFERS if a pixel is unexplained, STATUS_UNABLE (reported) without memory. */
 enum status judge_picture(const struct image *image, const uint32_t *signatures,
                           const struct reference_explanation *explanations, struct judgement *judgement);
+
+/* Prints the judgement by an exact picture of that precision in a line; so many pixels may be unexplained. */
+void judgement_print(const struct judgement *judgement, const char *scene, const char *precision,
+                     size_t allowed);
+
+/* The same as a JSON object; NULL without memory or where the scene's name is not UTF-8. */
+json_t *judgement_json(const struct judgement *judgement, const char *scene, const char *precision,
+                       size_t allowed);
 
 /* Writes an 8-bit PNG with two pictures side by side: the relative error, 2^-24 dark to 1 bright, and the
  * margin, 1 or less bright to 2^24 dark, both logarithmic in the colours of viridis. */

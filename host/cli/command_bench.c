@@ -1,25 +1,13 @@
-#include "cli/command_bench.h"
+#include "cli/options.h"
 
 #include <stdio.h>
 
 #include "base/json.h"
-#include "base/output_file.h"
 #include "bench/compare.h"
 #include "bench/document.h"
-#include "bench/gnuplot.h"
 #include "bench/report.h"
 #include "bench/scene.h"
 #include "bench/table.h"
-
-static enum status check_outputs(const struct options *options)
-{
-    const char *const paths[] = {options->json, options->csv, options->report, options->chart};
-    enum status status = options->report || options->chart ? gnuplot_check() : STATUS_DONE;
-    for (size_t i = 0; i < sizeof paths / sizeof *paths && status == STATUS_DONE; ++i)
-        if (paths[i])
-            status = output_file_check(paths[i]);
-    return status;
-}
 
 static enum status measure(const struct options *options, struct vulkan_context *context, json_t *document)
 {
@@ -60,8 +48,6 @@ static enum status deliver(const struct options *options, json_t *document, cons
     {
         json_object_del(scene, "pictures"); /* for the report alone */
     }
-    if (status == STATUS_DONE && options->chart)
-        status = chart_write(json_array_get(scenes, 0), options->chart);
     if (status == STATUS_DONE && options->csv)
         status = bench_csv_write(document, options->csv);
     if (status == STATUS_DONE && options->json)
@@ -77,8 +63,8 @@ enum status command_bench(const struct options *options)
 {
     struct vulkan_context *context = NULL; /* stays so with --backend cpu */
     json_t *old = NULL, *document = NULL;
-    enum status status = check_outputs(options);
-    if (status == STATUS_DONE && options->compare)
+    enum status status = STATUS_DONE;
+    if (options->compare)
         status = bench_document_read(options->compare, &old);
     if (status == STATUS_DONE && options->backend == BACKEND_VULKAN)
         status = vulkan_context_create(&options->vulkan, &context);

@@ -1,113 +1,146 @@
-#include "cli/command_check.h"
+#include "cli/options.h"
 
-#include <math.h>
-#include <stdio.h>
+#include <stdlib.h>
 
-#include "base/json.h"
 #include "base/output_file.h"
-#include "cli/check_against.h"
+#include "check/heatmap.h"
+#include "check/judge.h"
 #include "tracer/job.h"
+
+/* The command's state: results gets a JSON object for each scene. */
+struct check {
+    const struct options *options;
+    struct vulkan_context *context; /* NULL with --backend cpu */
+    json_t *results;
+};
 
 static enum status worse(enum status a, enum status b)
 {
     return a > b ? a : b;
 }
 
-static enum status report(const struct options *options, const char *scene, const struct rendering *rendering,
-                          const struct comparison *comparison, json_t *results)
+static enum status add_result(const struct check *check, const char *scene, json_t *result)
 {
-    static const char *const channels[] = {"r", "g", "b"};
-    const struct image *image = &rendering->image;
-    bool agrees = comparison->differing <= options->allow;
-    printf("%s: %zu of %zu pixels differ, max error %.9g @ (%u, %u, %s)%s\n", scene, comparison->differing,
-           (size_t)image->width * image->height, comparison->max_error, comparison->x, comparison->y,
-           channels[comparison->channel], agrees ? "" : "  DIFFERS");
-    enum status status = agrees ? STATUS_DONE : STATUS_DIFFERS;
-    if (!options->json)
-        return status;
-    /* JSON has no infinity. */
-    json_t *max_error = isfinite(comparison->max_error) ? json_real(comparison->max_error) : json_null();
-    json_t *result =
-        json_pack("{s:s, s:b, s:i, s:i, s:I, s:I, s:o, s:{s:i, s:i, s:s}}", "scene", scene, "agrees", agrees,
-                  "width", (int)image->width, "height", (int)image->height, "differing_pixels",
-                  (json_int_t)comparison->differing, "bit_differing_pixels",
-                  (json_int_t)comparison->bit_differing, "max_error", max_error, "at", "x",
-                  (int)comparison->x, "y", (int)comparison->y, "channel", channels[comparison->channel]);
-    if (json_array_append_new(results, result) != 0) {
-        log_error("no memory for the result of %s, or its name is not UTF-8", scene);
-        return STATUS_UNABLE;
-    }
-    return status;
+    if (json_array_append_new(check->results, result) == 0)
+        return STATUS_DONE;
+    log_error("no memory for the result of %s, or its name is not UTF-8", scene);
+    return STATUS_UNABLE;
 }
 
-static enum status compare_renderings(const struct options *options, const char *scene,
-                                      const struct rendering *device, const struct rendering *reference,
-                                      json_t *results)
+static enum status compare(const struct check *check, const char *scene, const struct image *device,
+                           const struct image *reference)
 {
+    const struct options *options = check->options;
     struct comparison comparison;
-    enum status status = image_compare(&device->image, &reference->image,
-                                       options->has_tolerance ? &options->tolerance : NULL, &comparison);
+    enum status status =
+        image_compare(device, reference, options->has_tolerance ? &options->tolerance : NULL, &comparison);
     if (status != STATUS_DONE && status != STATUS_DIFFERS)
         return status;
-    status = report(options, scene, device, &comparison, results);
+    status = comparison.differing <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
+    comparison_print(&comparison, scene, options->allow);
+    if (options->json)
+        status = worse(status, add_result(check, scene, comparison_json(&comparison, scene, options->allow)));
     if (options->heatmap)
-        status = worse(status, heatmap_write(&device->image, &reference->image, options->heatmap));
+        status = worse(status, heatmap_write(device, reference, options->heatmap));
     return status;
 }
 
-static enum status check_scene(const struct options *options, struct vulkan_context *context,
-                               const char *scene, json_t *results)
+/* Compares the device's picture with the reference's in the same precision. */
+static enum status check_by_reference(const struct check *check, const char *scene,
+                                      const struct render_plan *plan)
 {
-    struct job job;
     struct rendering device, reference;
-    enum status status = job_create(&options->job, scene, &job);
+    enum status status = render_on_device(check->context, plan, &device);
     if (status != STATUS_DONE)
         return status;
-    if (options->against != PRECISION_FLOAT) {
-        status = check_against(options, context, scene, &job, results);
-        job_destroy(&job);
-        return status;
-    }
-    status = render_on_device(context, &job.plan, &device);
+    status = render_on_cpu(plan, &reference);
     if (status == STATUS_DONE) {
-        status = render_on_cpu(&job.plan, &reference);
-        if (status == STATUS_DONE) {
-            status = compare_renderings(options, scene, &device, &reference, results);
-            image_destroy(&reference.image);
-        }
-        image_destroy(&device.image);
+        status = compare(check, scene, &device.image, &reference.image);
+        image_destroy(&reference.image);
     }
-    job_destroy(&job);
+    image_destroy(&device.image);
     return status;
 }
 
-static enum status check_outputs(const struct options *options)
+static enum status judge(const struct check *check, const char *scene, const struct image *image,
+                         const uint32_t *signatures, const struct reference_explanation *explanations)
 {
-    enum status status = STATUS_DONE;
+    const struct options *options = check->options;
+    const char *precision = precision_name(options->against);
+    struct judgement judgement;
+    enum status status = judge_picture(image, signatures, explanations, &judgement);
+    if (status == STATUS_UNABLE)
+        return status;
+    status = judgement.unexplained <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
+    judgement_print(&judgement, scene, precision, options->allow);
+    if (options->json)
+        status = worse(
+            status, add_result(check, scene, judgement_json(&judgement, scene, precision, options->allow)));
     if (options->heatmap)
-        status = output_file_check(options->heatmap);
-    if (status == STATUS_DONE && options->json)
-        status = output_file_check(options->json);
+        status = worse(status, judgement_heatmap(image, explanations, options->heatmap));
+    return status;
+}
+
+/* Judges the device's picture, or without a device that of the reference's float build, by the exact picture.
+ */
+static enum status check_by_exact_picture(const struct check *check, const char *scene,
+                                          const struct render_plan *plan)
+{
+    struct rendering rendering;
+    uint32_t *signatures = NULL;
+    struct reference_explanation *explanations = NULL;
+    enum status status =
+        check->context ? render_on_device(check->context, plan, &rendering) : render_on_cpu(plan, &rendering);
+    if (status != STATUS_DONE)
+        return status;
+    status = check->context ? signatures_on_device(check->context, plan, &signatures)
+                            : signatures_on_cpu(plan, &signatures);
+    if (status == STATUS_DONE)
+        status = explain_on_cpu(plan, check->options->against, &explanations);
+    if (status == STATUS_DONE)
+        status = judge(check, scene, &rendering.image, signatures, explanations);
+    free(explanations);
+    free(signatures);
+    image_destroy(&rendering.image);
+    return status;
+}
+
+static enum status check_scene(const struct check *check, const char *scene)
+{
+    struct job job;
+    enum status status = job_create(&check->options->job, scene, &job);
+    if (status != STATUS_DONE)
+        return status;
+    if (check->options->against == PRECISION_FLOAT)
+        status = check_by_reference(check, scene, &job.plan);
+    else
+        status = check_by_exact_picture(check, scene, &job.plan);
+    job_destroy(&job);
     return status;
 }
 
 enum status command_check(const struct options *options)
 {
-    struct vulkan_context *context = NULL; /* stays so with --backend cpu */
-    enum status status = check_outputs(options);
+    struct check check = {.options = options};
+    enum status status = STATUS_DONE;
+    if (options->heatmap)
+        status = output_file_check(options->heatmap);
+    if (status == STATUS_DONE && options->json)
+        status = output_file_check(options->json);
     if (status == STATUS_DONE && options->backend == BACKEND_VULKAN)
-        status = vulkan_context_create(&options->vulkan, &context);
+        status = vulkan_context_create(&options->vulkan, &check.context);
     if (status != STATUS_DONE)
         return status;
-    json_t *results = json_array();
+    check.results = json_array();
     for (size_t i = 0; i < options->scene_count && status != STATUS_INTERRUPTED; ++i)
-        status = worse(status, check_scene(options, context, options->scenes[i], results));
+        status = worse(status, check_scene(&check, options->scenes[i]));
     if (options->json && status != STATUS_INTERRUPTED) {
+        const struct vulkan_context *context = check.context;
         json_t *document =
             json_pack("{s:s, s:s, s:O}", "device", context ? context->properties.deviceName : "cpu", "driver",
-                      context ? context->driver.driverInfo : "plain-C reference", "scenes", results);
+                      context ? context->driver.driverInfo : "plain-C reference", "scenes", check.results);
         status = worse(status, json_write(document, options->json));
     }
-    json_decref(results);
-    return worse(status, vulkan_context_destroy(&context));
+    json_decref(check.results);
+    return worse(status, vulkan_context_destroy(&check.context));
 }

@@ -1,11 +1,15 @@
-#include "cli/command_render.h"
+#include "cli/options.h"
 
 #include <stdio.h>
 
 #include "base/clock.h"
 #include "base/json.h"
-#include "base/output_file.h"
 #include "tracer/job.h"
+
+static const char *device_name(const struct vulkan_context *context)
+{
+    return context ? context->properties.deviceName : "cpu";
+}
 
 static bool writes_exr(const struct options *options)
 {
@@ -32,85 +36,66 @@ static void report_truncation(const struct options *options, const struct job *j
 }
 
 static enum status write_stats(const struct options *options, const struct job *job,
-                               const struct rendering *rendering, const char *device, const char *driver,
+                               const struct rendering *rendering, const struct vulkan_context *context,
                                double write_ms)
 {
     const struct reference_rays *rays = &rendering->rays;
     double total = (double)(rays->primary + rays->secondary + rays->shadow);
+    json_t *driver = context ? json_sprintf("%s %s", context->driver.driverName, context->driver.driverInfo)
+                             : json_string("plain-C reference");
     json_t *stats = json_pack(
-        "{s:s, s:s, s:s, s:i, s:i, s:s, s:s, s:i, s:i, s:i, s:f, s:f, s:f, s:f, s:{s:I, s:I, s:I}, s:f}",
-        "scene", options->scenes[0], "device", device, "driver", driver, "width", (int)job->plan.window.width,
-        "height", (int)job->plan.window.height, "precision", precision_name(options->job.precision), "mode",
-        options->job.fast ? "fast" : "exact", "max_bounces", (int)job->max_bounces, "samples",
-        job->packed.samples, "light_samples", job->packed.light_samples, "setup_ms", rendering->setup_ms,
-        "first_dispatch_ms", rendering->first_dispatch_ms, "dispatch_ms", rendering->dispatch_ms, "write_ms",
-        write_ms, "rays", "primary", (json_int_t)rays->primary, "secondary", (json_int_t)rays->secondary,
-        "shadow", (json_int_t)rays->shadow, "rays_per_second",
+        "{s:s, s:s, s:o, s:i, s:i, s:s, s:s, s:i, s:i, s:i, s:f, s:f, s:f, s:f, s:{s:I, s:I, s:I}, s:f}",
+        "scene", options->scenes[0], "device", device_name(context), "driver", driver, "width",
+        (int)job->plan.window.width, "height", (int)job->plan.window.height, "precision",
+        precision_name(options->job.precision), "mode", options->job.fast ? "fast" : "exact", "max_bounces",
+        (int)job->max_bounces, "samples", job->packed.samples, "light_samples", job->packed.light_samples,
+        "setup_ms", rendering->setup_ms, "first_dispatch_ms", rendering->first_dispatch_ms, "dispatch_ms",
+        rendering->dispatch_ms, "write_ms", write_ms, "rays", "primary", (json_int_t)rays->primary,
+        "secondary", (json_int_t)rays->secondary, "shadow", (json_int_t)rays->shadow, "rays_per_second",
         rendering->dispatch_ms > 0 ? total / rendering->dispatch_ms * 1000 : 0);
     return json_write(stats, options->stats);
 }
 
-static enum status deliver(const struct options *options, const struct job *job, struct rendering *rendering,
-                           const char *device, const char *driver)
+static enum status deliver(const struct options *options, const struct job *job,
+                           const struct rendering *rendering, const struct vulkan_context *context)
 {
     if (options->job.has_max_error)
         report_truncation(options, job, &rendering->image);
     double start = clock_ms();
-    enum status status =
-        job_write(job, &rendering->image, options->outputs, options->output_count, options->transfer, device);
+    enum status status = job_write(job, &rendering->image, options->outputs, options->output_count,
+                                   options->transfer, device_name(context));
     double write_ms = clock_ms() - start;
     if (status == STATUS_DONE && options->stats)
-        status = write_stats(options, job, rendering, device, driver, write_ms);
+        status = write_stats(options, job, rendering, context, write_ms);
     if (status == STATUS_DONE)
         log_notice("%s: %ux%u in %.1f ms on %s (set-up %.1f ms, writing %.1f ms)", options->scenes[0],
-                   rendering->image.width, rendering->image.height, rendering->dispatch_ms, device,
-                   rendering->setup_ms, write_ms);
-    image_destroy(&rendering->image);
+                   rendering->image.width, rendering->image.height, rendering->dispatch_ms,
+                   device_name(context), rendering->setup_ms, write_ms);
     return status;
-}
-
-static enum status render_vulkan(const struct options *options, const struct job *job)
-{
-    struct vulkan_context *context;
-    struct rendering rendering;
-    double start = clock_ms();
-    enum status status = vulkan_context_create(&options->vulkan, &context);
-    if (status != STATUS_DONE)
-        return status;
-    double context_ms = clock_ms() - start;
-    status = render_on_device(context, &job->plan, &rendering);
-    if (status == STATUS_DONE) {
-        char driver[sizeof context->driver.driverName + sizeof context->driver.driverInfo + 1];
-        rendering.setup_ms += context_ms;
-        snprintf(driver, sizeof driver, "%s %s", context->driver.driverName, context->driver.driverInfo);
-        status = deliver(options, job, &rendering, context->properties.deviceName, driver);
-    }
-    enum status closed = vulkan_context_destroy(&context);
-    return status == STATUS_DONE ? closed : status;
 }
 
 enum status command_render(const struct options *options)
 {
-    enum status status = STATUS_DONE;
-    for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
-        status = image_write_check(options->outputs[i]);
-    if (status == STATUS_DONE && options->stats)
-        status = output_file_check(options->stats);
-    if (status != STATUS_DONE)
-        return status;
+    struct vulkan_context *context = NULL; /* stays so with --backend cpu */
+    struct rendering rendering;
     struct job job;
-    status = job_create(&options->job, options->scenes[0], &job);
+    enum status status = job_create(&options->job, options->scenes[0], &job);
     if (status != STATUS_DONE)
         return status;
     job.plan.bound_truncation = options->job.has_max_error || writes_exr(options);
-    if (options->backend == BACKEND_VULKAN) {
-        status = render_vulkan(options, &job);
-    } else {
-        struct rendering rendering;
-        status = render_on_cpu(&job.plan, &rendering);
-        if (status == STATUS_DONE)
-            status = deliver(options, &job, &rendering, "cpu", "plain-C reference");
+    double start = clock_ms();
+    if (options->backend == BACKEND_VULKAN)
+        status = vulkan_context_create(&options->vulkan, &context);
+    double context_ms = context ? clock_ms() - start : 0;
+    if (status == STATUS_DONE)
+        status =
+            context ? render_on_device(context, &job.plan, &rendering) : render_on_cpu(&job.plan, &rendering);
+    if (status == STATUS_DONE) {
+        rendering.setup_ms += context_ms;
+        status = deliver(options, &job, &rendering, context);
+        image_destroy(&rendering.image);
     }
     job_destroy(&job);
-    return status;
+    enum status closed = vulkan_context_destroy(&context);
+    return status == STATUS_DONE ? closed : status;
 }

@@ -1,4 +1,4 @@
-#include "cli/command_watch.h"
+#include "cli/options.h"
 
 #include "watch/watch.h"
 

@@ -3,10 +3,8 @@
 
 #include <stdio.h>
 
-#include "base/status.h"
-
-/* Both return STATUS_UNABLE (reported) if the text cannot be written. */
-enum status help_print(FILE *stream);
-enum status help_print_version(void);
+/* The caller finds out by fflush() whether the text could be written. documents.cmake reads it, too. */
+void help_print(FILE *stream);
+void help_print_version(void);
 
 #endif

@@ -1,50 +1,28 @@
 #ifndef VKWHITTED_CLI_OPTION_TABLE_H
 #define VKWHITTED_CLI_OPTION_TABLE_H
 
-#include <getopt.h>
+#include <stdbool.h>
+#include <stddef.h>
 
-/* Options are known by their letter or by one of these. */
-enum option_id {
-    OPTION_FIRST = 256, /* above all letters */
-    OPTION_DEVICE = OPTION_FIRST,
-    OPTION_BACKEND,
-    OPTION_PRECISION,
-    OPTION_FAST,
-    OPTION_SIZE,
-    OPTION_MAX_BOUNCES,
-    OPTION_SAMPLES,
-    OPTION_LIGHT_SAMPLES,
-    OPTION_MAX_ERROR,
-    OPTION_CROP,
-    OPTION_THREADS,
-    OPTION_TRANSFER,
-    OPTION_VALIDATE,
-    OPTION_STATS,
-    OPTION_REPEAT,
-    OPTION_TOLERANCE,
-    OPTION_ALLOW,
-    OPTION_AGAINST,
-    OPTION_HEATMAP,
-    OPTION_JSON,
-    OPTION_CSV,
-    OPTION_REPORT,
-    OPTION_CHART,
-    OPTION_COMPARE,
-    OPTION_QUICK,
-    OPTION_SHADERS,
-    OPTION_CHECK,
-    OPTION_WINDOW,
-    OPTION_HELP,
-    OPTION_VERSION,
+/* One option of the command line. Parsing and --help are made from the table of these; the manual page and
+ * the completions of shells are made from --help when the program is built, see documents.cmake. */
+struct option_entry {
+    const char *name;  /* "": has a letter only */
+    char letter[2];    /* "": has a long name only */
+    unsigned commands; /* that take it, as for command_names(); those of one set stand together */
+    const char *value; /* as --help shows it; NULL: takes none. For a choice the words, separated by | */
+
+    /* Puts the value to its place in struct options. False (reported) where it is none for this option. */
+    bool (*read)(const struct option_entry *option, const char *value, void *place);
+    size_t offset;        /* of the place */
+    unsigned least, most; /* of a number; most is 0 for everything else */
+    const char *help;     /* lines after the first are indented */
 };
+extern const struct option_entry option_table[]; /* ends with one without help */
 
-/* For getopt_long(). */
-extern const struct option option_table[];
+enum { OPTION_COUNT_MAX = 63 };
 
-/* Which commands take the option: a set of bits, 1 << COMMAND_. */
-int option_takers(int id);
-
-/* The long name, "" for a letter. */
-const char *option_name(int id);
+/* Splits text at the separator into exactly `count` whole numbers up to most. */
+bool parse_list(const char *text, char separator, size_t count, unsigned long most, unsigned *values);
 
 #endif

@@ -4,22 +4,13 @@
 #include <stddef.h>
 
 #include "check/compare.h"
+#include "cli/commands.h"
 #include "tracer/job.h"
 #include "vulkan/context.h"
 
-enum command {
-    COMMAND_RENDER,
-    COMMAND_CHECK,
-    COMMAND_WATCH,
-    COMMAND_BENCH,
-    COMMAND_PIXEL,
-    COMMAND_DEVICES,
-    COMMAND_COUNT
-};
-
 /* The command line, checked. Strings point into argv. */
 struct options {
-    enum command command;
+    enum command_id command;
     int argc;
     char **argv;
     char **scenes; /* paths */
@@ -32,22 +23,18 @@ struct options {
     enum transfer transfer;
     bool has_tolerance;
     struct tolerance tolerance;
-    unsigned long allow; /* pixels that may differ */
+    unsigned allow; /* pixels that may differ */
     enum precision
-        against; /* PRECISION_FLOAT: bit for bit against the reference, otherwise against the truth */
+        against; /* float: against the reference, bit for bit; otherwise against the exact picture */
     const char *stats, *json, *heatmap;
-    const char *csv, *report, *chart, *compare; /* bench; compare is an earlier one's JSON file */
+    const char *csv, *report, *compare; /* bench; compare is the JSON file of an earlier one */
     bool quick;
     unsigned x, y;       /* of pixel */
     const char *shaders; /* folder; NULL: the one that came with the program */
     bool check;          /* each picture that watch makes */
     bool window;         /* that watch shows pictures in */
     bool verbose;
+    bool help, version; /* is all that is asked for, and nothing else has been checked */
 };
-
-/* Reads the command line; owns options->outputs, freed with options_destroy(). STATUS_REFUSED (reported) if
- * it is wrong. *finished is set where --help or --version has been answered and nothing is left to do. */
-enum status options_read(int argc, char **argv, struct options *options, bool *finished);
-void options_destroy(struct options *options);
 
 #endif

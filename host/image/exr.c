@@ -13,18 +13,17 @@ struct exr_output {
     exr_context_t context;
     exr_encode_pipeline_t pipeline;
     bool pipeline_started;
-    char message[256]; /* the first thing the library complained of */
 };
 
-/* The library's error callback gets no user data where it has no context yet. */
-static _Thread_local struct exr_output *current;
+/* The first thing the library complained of. Its error callback gets no user data where it has no context
+ * yet. */
+static _Thread_local char problem[256];
 
 static void on_error(exr_const_context_t context, exr_result_t result, const char *message)
 {
     (void)context;
-    if (current && current->message[0] == '\0')
-        snprintf(current->message, sizeof current->message, "%s",
-                 message ? message : exr_get_default_error_message(result));
+    if (problem[0] == '\0')
+        snprintf(problem, sizeof problem, "%s", message ? message : exr_get_default_error_message(result));
 }
 
 static int64_t on_write(exr_const_context_t context, void *user_data, const void *bytes, uint64_t size,
@@ -129,12 +128,10 @@ enum status image_write_exr(const struct image *image, const char *path,
     if (status != STATUS_DONE)
         return status;
 
-    current = &output;
-    bool encoded = encode(&output, metadata);
-    current = NULL;
-    if (encoded || output.file.error != 0)
+    problem[0] = '\0';
+    if (encode(&output, metadata) || output.file.error != 0)
         return output_file_commit(&output.file);
-    log_error("%s: cannot write EXR: %s", path, output.message);
+    log_error("%s: cannot write EXR: %s", path, problem);
     output_file_abandon(&output.file);
     return STATUS_UNABLE;
 }

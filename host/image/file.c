@@ -6,22 +6,22 @@
 #include "base/output_file.h"
 #include "image/formats.h"
 
+static const struct {
+    const char *suffix;
+    enum status (*write)(const struct image *image, const char *path, const struct image_metadata *metadata);
+} formats[] = {
+    [IMAGE_FORMAT_PNG] = {".png", image_write_png},
+    [IMAGE_FORMAT_EXR] = {".exr", image_write_exr},
+    [IMAGE_FORMAT_PFM] = {".pfm", image_write_pfm},
+};
+
 enum image_format image_format_of(const char *path)
 {
-    static const struct {
-        const char *suffix;
-        enum image_format format;
-    } formats[] = {
-        {".png", IMAGE_FORMAT_PNG},
-        {".exr", IMAGE_FORMAT_EXR},
-        {".pfm", IMAGE_FORMAT_PFM},
-    };
     const char *slash = strrchr(path, '/');
-    const char *name = slash ? slash + 1 : path;
-    const char *suffix = strrchr(name, '.');
-    for (size_t i = 0; suffix && i < sizeof formats / sizeof formats[0]; i++)
+    const char *suffix = strrchr(slash ? slash : path, '.');
+    for (int i = IMAGE_FORMAT_PNG; suffix && i <= IMAGE_FORMAT_PFM; i++)
         if (strcasecmp(suffix, formats[i].suffix) == 0)
-            return formats[i].format;
+            return (enum image_format)i;
     log_error("%s: a picture's name must end in .png, .exr or .pfm, %s%s%s", path,
               suffix ? "not \"" : "this one has no suffix", suffix ? suffix : "", suffix ? "\"" : "");
     return IMAGE_FORMAT_UNKNOWN;
@@ -29,17 +29,8 @@ enum image_format image_format_of(const char *path)
 
 enum status image_write(const struct image *image, const char *path, const struct image_metadata *metadata)
 {
-    switch (image_format_of(path)) {
-    case IMAGE_FORMAT_PNG:
-        return image_write_png(image, path, metadata);
-    case IMAGE_FORMAT_EXR:
-        return image_write_exr(image, path, metadata);
-    case IMAGE_FORMAT_PFM:
-        return image_write_pfm(image, path, metadata);
-    case IMAGE_FORMAT_UNKNOWN:
-        break;
-    }
-    return STATUS_REFUSED;
+    enum image_format format = image_format_of(path);
+    return format == IMAGE_FORMAT_UNKNOWN ? STATUS_REFUSED : formats[format].write(image, path, metadata);
 }
 
 enum status image_write_check(const char *path)

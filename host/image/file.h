@@ -6,18 +6,6 @@
 
 enum image_format { IMAGE_FORMAT_UNKNOWN, IMAGE_FORMAT_PNG, IMAGE_FORMAT_EXR, IMAGE_FORMAT_PFM };
 
-/* From linear light to 8-bit code values. */
-enum transfer { TRANSFER_SRGB, TRANSFER_LINEAR };
-
-/* What a file says about its picture, as far as its format can: PNG and EXR hold all but the transfer
- * function as the texts or attributes "scene", "device", "precision" and "maxBounces"; PFM holds none.
- * The transfer function matters to PNG alone, the others are linear. A string may be NULL. */
-struct image_metadata {
-    enum transfer transfer;
-    const char *scene, *device, *precision;
-    unsigned max_bounces;
-};
-
 /* The format that a path's suffix names, in either case; IMAGE_FORMAT_UNKNOWN (reported) for any other. */
 enum image_format image_format_of(const char *path);
 

@@ -2,8 +2,9 @@
 #define VKWHITTED_IMAGE_FORMATS_H
 
 #include <stdint.h>
+#include <stdio.h>
 
-#include "image/file.h"
+#include "image/image.h"
 
 /* The writers behind image_write(), one for each format; each reports its failures. */
 enum status image_write_png(const struct image *image, const char *path,
@@ -27,6 +28,11 @@ struct png_source {
     const void *context;
 };
 
+/* Writes the picture to the stream, which goes by that name in messages. STATUS_UNABLE (reported) where it
+ * cannot be written; what the stream still holds back has yet to be flushed. */
+enum status png_encode(const struct png_source *source, FILE *stream, const char *name);
+
+/* Writes the picture to a file, whole or not at all. */
 enum status png_write(const struct png_source *source, const char *path);
 
 #endif

@@ -1,30 +1,17 @@
 #include "image/image.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <unistd.h>
-
-/* Bytes of memory the machine has, or infinity where it does not say. */
-static double physical_memory_bytes(void)
-{
-    long pages = sysconf(_SC_PHYS_PAGES);
-    long page_bytes = sysconf(_SC_PAGESIZE);
-    if (pages <= 0 || page_bytes <= 0)
-        return (double)SIZE_MAX;
-    return (double)pages * (double)page_bytes;
-}
 
 enum status image_create(unsigned width, unsigned height, struct image *image)
 {
     *image = (struct image){0};
-
-    const double gibibyte = 1024.0 * 1024.0 * 1024.0;
-    double wanted_bytes = (double)width * (double)height * 3.0 * (double)sizeof(float);
-    double memory_bytes = physical_memory_bytes();
-    if (wanted_bytes > memory_bytes || wanted_bytes > (double)(SIZE_MAX / 2)) {
+    const double wanted_bytes = (double)width * (double)height * 3.0 * (double)sizeof(float);
+    const double memory_bytes = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    if (wanted_bytes > memory_bytes) {
         log_error(
             "a picture of %ux%u pixels takes %.0f bytes (%.1f GiB) of memory, this machine has %.1f GiB",
-            width, height, wanted_bytes, wanted_bytes / gibibyte, memory_bytes / gibibyte);
+            width, height, wanted_bytes, wanted_bytes * 0x1p-30, memory_bytes * 0x1p-30);
         return STATUS_UNABLE;
     }
 

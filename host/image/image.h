@@ -14,6 +14,18 @@ struct image {
         *truncation; /* how far a pixel is from the picture with all bounces at most, where wanted; or NULL */
 };
 
+/* From linear light to 8-bit code values. */
+enum transfer { TRANSFER_SRGB, TRANSFER_LINEAR };
+
+/* What a file says about its picture, as far as its format can: PNG and EXR hold all but the transfer
+ * function as the texts or attributes "scene", "device", "precision" and "maxBounces"; PFM holds none.
+ * The transfer function matters to PNG alone, the others are linear. A string may be NULL. */
+struct image_metadata {
+    enum transfer transfer;
+    const char *scene, *device, *precision;
+    unsigned max_bounces;
+};
+
 /* A black image; STATUS_UNABLE (reported) if the machine's memory cannot hold it. */
 enum status image_create(unsigned width, unsigned height, struct image *image);
 

@@ -1,3 +1,4 @@
+#include <errno.h>
 #include <png.h>
 #include <setjmp.h>
 #include <stdio.h>
@@ -12,33 +13,36 @@
 enum { MAX_TEXTS = 8 };
 
 struct png_output {
-    struct output_file file;
+    FILE *stream;
+    const char *name; /* for messages */
     const struct png_source *source;
     png_structp png;
     png_infop info;
     uint8_t *row;
-    bool write_failed; /* output_file_commit() reports it */
+    int error; /* errno of a write that failed */
 };
 
 static void on_error(png_structp png, png_const_charp message)
 {
     const struct png_output *output = png_get_error_ptr(png);
-    if (!output->write_failed)
-        log_error("%s: cannot write PNG: %s", output->file.path, message);
+    if (output->error)
+        log_error("%s: cannot write: %s", output->name, strerror(output->error));
+    else
+        log_error("%s: cannot write PNG: %s", output->name, message);
     png_longjmp(png, 1);
 }
 
 static void on_warning(png_structp png, png_const_charp message)
 {
     const struct png_output *output = png_get_error_ptr(png);
-    log_warning("%s: PNG: %s", output->file.path, message);
+    log_warning("%s: PNG: %s", output->name, message);
 }
 
 static void on_write(png_structp png, png_bytep bytes, size_t size)
 {
     struct png_output *output = png_get_io_ptr(png);
-    if (!output_file_write(&output->file, bytes, size)) {
-        output->write_failed = true;
+    if (fwrite(bytes, 1, size, output->stream) != size) {
+        output->error = errno ? errno : EIO;
         png_error(png, "write failed");
     }
 }
@@ -113,27 +117,32 @@ static bool start(struct png_output *output)
     output->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, output, on_error, on_warning);
     output->info = output->png ? png_create_info_struct(output->png) : NULL;
     if (!output->row || !output->info) {
-        log_error("%s: no memory to write PNG", output->file.path);
+        log_error("%s: no memory to write PNG", output->name);
         return false;
     }
     png_set_write_fn(output->png, output, on_write, on_flush);
     return true;
 }
 
-enum status png_write(const struct png_source *source, const char *path)
+enum status png_encode(const struct png_source *source, FILE *stream, const char *name)
 {
-    struct png_output output = {.source = source};
-    enum status status = output_file_open(path, &output.file);
-    if (status != STATUS_DONE)
-        return status;
-
+    struct png_output output = {.stream = stream, .name = name, .source = source};
     bool encoded = start(&output) && encode(&output);
     png_destroy_write_struct(&output.png, &output.info);
     free(output.row);
-    if (encoded || output.write_failed)
-        return output_file_commit(&output.file);
-    output_file_abandon(&output.file);
-    return STATUS_UNABLE;
+    return encoded ? STATUS_DONE : STATUS_UNABLE;
+}
+
+enum status png_write(const struct png_source *source, const char *path)
+{
+    struct output_file file;
+    enum status status = output_file_open(path, &file);
+    if (status == STATUS_DONE)
+        status = png_encode(source, file.stream, path);
+    if (status == STATUS_DONE)
+        return output_file_commit(&file);
+    output_file_abandon(&file);
+    return status;
 }
 
 struct picture {

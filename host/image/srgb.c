@@ -1,6 +1,7 @@
 #include "image/srgb.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 static const float lowest = 0x1p-13f;
@@ -25,41 +26,26 @@ static double opto_electronic_transfer(double linear)
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-static double inverse_transfer(double encoded)
-{
-    return encoded <= 12.92 * 0.0031308 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 static unsigned nearest_code(float linear)
 {
     return (unsigned)floor(255.0 * opto_electronic_transfer((double)linear) + 0.5);
 }
 
-/* The least float that encodes to code or more: the inverse is right to within a few floats, the rest
- * is walked. */
-static float threshold_of(unsigned code)
-{
-    float threshold = (float)inverse_transfer((code - 0.5) / 255.0);
-    while (nearest_code(threshold) >= code)
-        threshold = nextafterf(threshold, 0.0f);
-    while (nearest_code(threshold) < code)
-        threshold = nextafterf(threshold, 1.0f);
-    return threshold;
-}
-
 void srgb_encoder_init(struct srgb_encoder *encoder)
 {
-    uint32_t code = 0;
-    float threshold = threshold_of(1);
     for (uint32_t cell = 0; cell < SRGB_CELLS; cell++) {
-        float end = float_of_bits(float_bits(lowest) + ((cell + 1) << 16));
-        encoder->cells[cell].below = code;
-        encoder->cells[cell].threshold = INFINITY;
-        if (code < 255 && threshold < end) {
-            encoder->cells[cell].threshold = threshold;
-            code++;
-            threshold = code < 255 ? threshold_of(code + 1) : INFINITY;
+        uint32_t below = float_bits(lowest) + (cell << 16), above = below + 0xffff;
+        const unsigned code = nearest_code(float_of_bits(below));
+        const bool rises = nearest_code(float_of_bits(above)) > code;
+        while (rises && above - below > 1) {
+            const uint32_t middle = below + (above - below) / 2;
+            if (nearest_code(float_of_bits(middle)) > code)
+                above = middle;
+            else
+                below = middle;
         }
+        encoder->cells[cell].below = code;
+        encoder->cells[cell].threshold = rises ? float_of_bits(above) : INFINITY;
     }
 }
 

@@ -1,13 +1,6 @@
 #include <math.h>
-#include <stdlib.h>
 
-#include "pixel/report.h"
-
-/* JSON has no infinity. */
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
+#include "pixel/trace.h"
 
 /* The object with a member more; NULL, and neither is left, without memory. */
 static json_t *with(json_t *object, const char *key, json_t *value)
@@ -20,93 +13,72 @@ static json_t *with(json_t *object, const char *key, json_t *value)
     return NULL;
 }
 
-static json_t *field_json(const struct pixel_report *report, const struct event_field *field,
+/* A quantity of the event; the numbers of FIELD_VALUE come from values. */
+static json_t *field_json(const struct pixel_trace *trace, const struct event_field *field,
                           const struct reference_event *event, const double *values)
 {
-    if (field->type == FIELD_OBJECT)
-        return json_string(surface_name(report, event_value(event, field, 0)));
-    if (field->type == FIELD_FLAG)
-        return json_boolean(event_value(event, field, 0) != 0);
-    if (field->type == FIELD_NUMBER)
-        return json_integer((json_int_t)event_value(event, field, 0));
-    const double scale = pow(report->scale, field->metres);
+    const double fact = event_value(event, field, 0), scale = pow(trace->scale, field->metres);
+    switch (field->type) {
+    case FIELD_OBJECT:
+        return json_string(surface_name(trace, fact));
+    case FIELD_FLAG:
+        return json_boolean(fact != 0);
+    case FIELD_NUMBER:
+        return json_integer((json_int_t)fact);
+    case FIELD_VALUE:
+        break;
+    }
+    values += field->first;
     if (field->count == 1)
-        return number(values[field->first] / scale);
-    const double *first = values + field->first;
-    return json_pack("[o, o, o]", number(first[0] / scale), number(first[1] / scale),
-                     number(first[2] / scale));
+        return json_real_or_null(values[0] / scale);
+    return json_pack("[o, o, o]", json_real_or_null(values[0] / scale), json_real_or_null(values[1] / scale),
+                     json_real_or_null(values[2] / scale));
 }
 
-static json_t *event_json(const struct pixel_report *report, const struct reference_event *event)
+static json_t *event_json(const struct pixel_trace *trace, const struct reference_event *event)
 {
     json_t *object = json_object();
-    for (const struct event_field *field = event_fields(event->head.place.x); field->name; ++field)
-        object = with(object, field->name, field_json(report, field, event, event->values));
+    for (const struct event_field *field = NULL; (field = event_next_field(event, field));)
+        object = with(object, field->name, field_json(trace, field, event, event->values));
     return object;
 }
 
-/* Errors of the device's values, and bounds on them. */
-static json_t *exact_json(const struct pixel_report *report, const struct reference_event *device,
-                          const struct reference_event *exact)
+/* The exact values, the errors of the device's, and the bounds on them. */
+static json_t *exact_json(const struct pixel_trace *trace, const struct step *step)
 {
-    json_t *object = event_json(report, exact), *errors = json_object(), *bounds = json_object();
-    struct reference_event error = *device;
+    const struct reference_event *exact = step->exact;
+    json_t *errors = json_object(), *bounds = json_object();
+    double error[EVENT_VALUES];
     for (int i = 0; i < EVENT_VALUES; ++i)
-        error.values[i] = device->values[i] - exact->values[i];
-    for (const struct event_field *field = event_fields(device->head.place.x); field->name; ++field)
-        if (field->type == FIELD_VALUE && exact_knows(field)) {
-            errors = with(errors, field->name, field_json(report, field, &error, error.values));
-            bounds = with(bounds, field->name, field_json(report, field, exact, exact->bounds));
+        error[i] = step->device->values[i] - exact->values[i];
+    for (const struct event_field *field = NULL; (field = event_next_field(exact, field));)
+        if (field->type == FIELD_VALUE && !field->not_analysed) {
+            errors = with(errors, field->name, field_json(trace, field, exact, error));
+            bounds = with(bounds, field->name, field_json(trace, field, exact, exact->bounds));
         }
-    return json_pack("{s:o, s:o, s:o, s:o}", "values", object, "errors", errors, "bounds", bounds, "margin",
-                     number(exact->margin));
+    return json_pack("{s:o, s:o, s:o, s:o}", "values", event_json(trace, exact), "errors", errors, "bounds",
+                     bounds, "margin", json_real_or_null(exact->margin));
 }
 
-static json_t *step_json(const struct pixel_report *report, const struct reference_event *device,
-                         const struct reference_event *reference, const struct reference_event *exact)
+static json_t *step_json(const struct pixel_trace *trace, const struct step *step)
 {
-    const struct reference_event *event = device ? device : reference;
+    const struct reference_event *event = step->device ? step->device : step->reference;
     const layout_ivec4 place = event->head.place;
-    json_t *object = json_pack("{s:s, s:i, s:I, s:i}", "step", event_name(place.x), "sample", place.y,
-                               "branch", (json_int_t)(uint32_t)place.z, "bounces", place.w);
-    if (device)
-        object = with(object, "device", event_json(report, device));
-    if (reference)
-        object = with(object, "reference", event_json(report, reference));
-    if (exact && device)
-        object = with(object, precision_name(report->against), exact_json(report, device, exact));
+    json_t *object =
+        json_pack("{s:s, s:i, s:I, s:i}", "step", event_name(event), "sample", place.EVENT_OF_SAMPLE,
+                  "branch", (json_int_t)(uint32_t)place.EVENT_BRANCH, "bounces", place.EVENT_BOUNCES);
+    if (step->device)
+        object = with(object, "device", event_json(trace, step->device));
+    if (step->reference)
+        object = with(object, "reference", event_json(trace, step->reference));
+    if (step->device && step->exact)
+        object = with(object, precision_name(trace->against), exact_json(trace, step));
     return object;
 }
 
-/* STATUS_UNABLE is left to json_write() to report. */
-static enum status append_steps(const struct pixel_report *report, json_t *steps)
+static json_t *difference_json(const struct pixel_trace *trace)
 {
-    struct step_finder reference = {0}, exact = {0}, device = {0};
-    enum status status = step_finder_create(&report->reference, &reference);
-    if (status == STATUS_DONE)
-        status = step_finder_create(&report->exact, &exact);
-    if (status == STATUS_DONE)
-        status = step_finder_create(&report->on_device, &device);
-    for (size_t i = 0; status == STATUS_DONE && i < report->on_device.count; ++i) {
-        const struct reference_event *event = &report->on_device.events[i];
-        json_t *step = step_json(report, event, find_step(&reference, event), find_step(&exact, event));
-        status = json_array_append_new(steps, step) == 0 ? STATUS_DONE : STATUS_UNABLE;
-    }
-    for (size_t i = 0; status == STATUS_DONE && i < report->reference.count; ++i) {
-        const struct reference_event *event = &report->reference.events[i];
-        if (!find_step(&device, event) &&
-            json_array_append_new(steps, step_json(report, NULL, event, NULL)) != 0)
-            status = STATUS_UNABLE;
-    }
-    free(reference.sorted);
-    free(exact.sorted);
-    free(device.sorted);
-    return status;
-}
-
-static json_t *difference_json(const struct pixel_report *report)
-{
-    const struct event_difference *difference = &report->difference;
+    const struct event_difference *difference = &trace->difference;
     const struct event_field *field = difference->field;
     if (!difference->differs)
         return json_null();
@@ -114,31 +86,28 @@ static json_t *difference_json(const struct pixel_report *report)
                                field ? field->name : "step", "component", difference->component);
     if (!field || field->type != FIELD_VALUE)
         return object;
-    char device[BITS_TEXT], reference[BITS_TEXT];
-    print_bits(report,
-               event_value(&report->on_device.events[difference->event], field, difference->component),
-               device);
-    print_bits(report,
-               event_value(&report->reference.events[difference->event], field, difference->component),
-               reference);
-    object = with(object, "device_bits", json_string(device));
-    object = with(object, "reference_bits", json_string(reference));
-    return object;
+    char bits[BITS_TEXT];
+    object = with(object, "device_bits", json_string(difference_bits(trace, &trace->device, bits)));
+    return with(object, "reference_bits", json_string(difference_bits(trace, &trace->reference, bits)));
 }
 
-json_t *pixel_json(const struct pixel_report *report)
+json_t *pixel_json(const struct pixel_trace *trace)
 {
+    const struct render_plan *plan = &trace->job->plan;
     json_t *steps = json_array();
-    if (append_steps(report, steps) != STATUS_DONE) {
-        json_decref(steps);
-        return NULL;
-    }
+    for (size_t i = 0; i < trace->step_count; ++i)
+        if (json_array_append_new(steps, step_json(trace, &trace->steps[i])) != 0) {
+            json_decref(steps);
+            return NULL;
+        }
     return json_pack("{s:s, s:s, s:s, s:s, s:i, s:i, s:b, s:o, s:f, s:[o,o,o], s:I, s:I, s:o}", "scene",
-                     report->scene_path, "device", report->device, "driver", report->driver, "precision",
-                     precision_name(report->precision), "x", (int)report->x, "y", (int)report->y, "agrees",
-                     !report->difference.differs && pixel_is_the_pictures(report), "first_difference",
-                     difference_json(report), "scene_units_per_metre", report->scale, "radiance",
-                     number(report->picture[0]), number(report->picture[1]), number(report->picture[2]),
-                     "steps_beyond_device", (json_int_t)report->on_device.beyond, "steps_beyond_reference",
-                     (json_int_t)report->reference.beyond, "steps", steps);
+                     trace->job->scene.path, "device", trace->context->properties.deviceName, "driver",
+                     trace->context->driver.driverInfo, "precision", precision_name(plan->precision), "x",
+                     (int)plan->window.x, "y", (int)plan->window.y, "agrees",
+                     !trace->difference.differs && trace->is_the_pictures, "first_difference",
+                     difference_json(trace), "scene_units_per_metre", trace->scale, "radiance",
+                     json_real_or_null(trace->picture[0]), json_real_or_null(trace->picture[1]),
+                     json_real_or_null(trace->picture[2]), "steps_beyond_device",
+                     (json_int_t)trace->device.beyond, "steps_beyond_reference",
+                     (json_int_t)trace->reference.beyond, "steps", steps);
 }

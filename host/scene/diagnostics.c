@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SHOWN_BEFORE = 100, SHOWN_AFTER = 100 }; /* bytes of a long line on either side of the caret */
+enum { SHOWN_AROUND = 100 }; /* bytes of a long line on either side of the caret */
 
 static bool is_continuation(char byte)
 {
@@ -19,26 +19,23 @@ static bool precedes(struct scene_place a, struct scene_place b)
 
 void report_error(struct diagnostics *report, struct scene_place place, const char *format, ...)
 {
-    report->count++;
-    if (report->kept == REPORT_MAX_ERRORS)
+    if (report->count++ >= REPORT_MAX_ERRORS)
         return;
-
     char *message = NULL;
     va_list arguments;
     va_start(arguments, format);
-    int written = vasprintf(&message, format, arguments);
-    va_end(arguments);
-    if (written < 0) {
+    if (vasprintf(&message, format, arguments) < 0) {
         report->no_memory = true;
-        return;
+        message = NULL;
     }
-    size_t at = report->kept++;
+    va_end(arguments);
+    size_t at = report->count - 1;
     for (; at > 0 && precedes(place, report->errors[at - 1].place); at--)
         report->errors[at] = report->errors[at - 1];
-    report->errors[at] = (struct scene_error){.place = place, .message = message};
+    report->errors[at] = (struct scene_error){place, message};
 }
 
-/* The line's first byte and its length without the line break; "" for a line that is not there. */
+/* The line's first byte and its length without the line break. */
 static const char *find_line(const struct diagnostics *report, int line, size_t *length)
 {
     const char *at = report->text, *end = report->text + report->length;
@@ -52,50 +49,45 @@ static const char *find_line(const struct diagnostics *report, int line, size_t 
     return at;
 }
 
+static size_t next_character(const char *line, size_t length, size_t at)
+{
+    do
+        at++;
+    while (at < length && is_continuation(line[at]));
+    return at;
+}
+
 static void print_line_and_caret(const struct diagnostics *report, struct scene_place place)
 {
-    size_t length;
+    size_t length, caret = 0, start = 0, stop;
     const char *line = find_line(report, place.line, &length);
-    size_t caret = 0;
     for (int column = 1; column < place.column && caret < length; column++)
-        do
-            caret++;
-        while (caret < length && is_continuation(line[caret]));
+        caret = next_character(line, length, caret);
+    while (caret - start > SHOWN_AROUND)
+        start = next_character(line, length, start);
+    for (stop = caret; stop < length && stop - caret < SHOWN_AROUND;)
+        stop = next_character(line, length, stop);
 
-    size_t start = caret > SHOWN_BEFORE ? caret - SHOWN_BEFORE : 0;
-    while (start < caret && is_continuation(line[start]))
-        start++;
-    size_t stop = length - caret > SHOWN_AFTER ? caret + SHOWN_AFTER : length;
-    while (stop < length && is_continuation(line[stop]))
-        stop++;
-
-    fwrite(line + start, 1, stop - start, stderr);
-    fputc('\n', stderr);
-    for (size_t i = start; i < caret; i++)
-        if (!is_continuation(line[i]))
-            fputc(line[i] == '\t' ? '\t' : ' ', stderr);
+    fprintf(stderr, "%.*s\n", (int)(stop - start), line + start);
+    for (size_t i = start; i < caret; i = next_character(line, length, i))
+        fputc(line[i] == '\t' ? '\t' : ' ', stderr);
     fputs("^\n", stderr);
 }
 
-void report_print(const struct diagnostics *report)
+void report_print(struct diagnostics *report)
 {
     flockfile(stderr);
-    for (size_t i = 0; i < report->kept; i++) {
+    for (size_t i = 0; i < report->count && i < REPORT_MAX_ERRORS; i++) {
         const struct scene_error *error = &report->errors[i];
         fprintf(stderr, "%s:%d:%d: error: %s\n", report->path, error->place.line, error->place.column,
-                error->message);
+                error->message ? error->message : "");
         print_line_and_caret(report, error->place);
+        free(error->message);
     }
-    if (report->count > report->kept)
-        fprintf(stderr, "%s: error: %zu more errors\n", report->path, report->count - report->kept);
+    if (report->count > REPORT_MAX_ERRORS)
+        fprintf(stderr, "%s: error: %zu more errors\n", report->path, report->count - REPORT_MAX_ERRORS);
     funlockfile(stderr);
-}
-
-void report_clear(struct diagnostics *report)
-{
-    for (size_t i = 0; i < report->kept; i++)
-        free(report->errors[i].message);
-    report->kept = report->count = 0;
+    report->count = 0;
 }
 
 const char *report_quote(const char *text, size_t length, char out[REPORT_QUOTE_SIZE])
@@ -109,10 +101,10 @@ const char *report_quote(const char *text, size_t length, char out[REPORT_QUOTE_
     out[0] = '"';
     for (size_t i = 0; i < kept; i++) {
         unsigned char byte = (unsigned char)text[i];
-        bool c1_control = byte == 0xC2 && i + 1 < kept && (unsigned char)text[i + 1] < 0xA0;
-        out[1 + i] = byte < 0x20 || byte == 0x7F || c1_control ? '?' : text[i];
+        bool c1_control = i > 0 && (unsigned char)text[i - 1] == 0xC2 && byte < 0xA0;
+        out[1 + i] = byte < 0x20 || byte == 0x7F ? '?' : text[i];
         if (c1_control)
-            out[1 + ++i] = '?';
+            out[i] = out[1 + i] = '?';
     }
     snprintf(out + 1 + kept, REPORT_QUOTE_SIZE - 1 - kept, "%s\"", kept < length ? ellipsis : "");
     return out;

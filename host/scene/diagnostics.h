@@ -13,29 +13,24 @@ enum {
     REPORT_QUOTE_SIZE = 64,  /* bytes that report_quote() writes at most, the terminator included */
 };
 
-struct scene_error {
-    struct scene_place place;
-    char *message;
-};
-
 struct diagnostics {
     const char *path;
     const char *text; /* the whole file, for showing lines; not owned */
     size_t length;
     size_t count; /* all errors met, kept or not */
-    size_t kept;
-    struct scene_error errors[REPORT_MAX_ERRORS];
+    struct scene_error {
+        struct scene_place place;
+        char *message;
+    } errors[REPORT_MAX_ERRORS];
     bool no_memory; /* an allocation failed anywhere in the reading */
 };
 
 __attribute__((format(printf, 3, 4))) void report_error(struct diagnostics *report, struct scene_place place,
                                                         const char *format, ...);
 
-/* Prints each error to standard error as "path:line:column: error: message", the line and a caret. */
-void report_print(const struct diagnostics *report);
-
-/* Frees the messages and leaves the report without errors. */
-void report_clear(struct diagnostics *report);
+/* Prints each error to standard error as "path:line:column: error: message", the line and a caret, and frees
+ * the messages. */
+void report_print(struct diagnostics *report);
 
 /* Writes text between double quotes, shortened where long, control characters replaced; returns out. */
 const char *report_quote(const char *text, size_t length, char out[REPORT_QUOTE_SIZE]);

@@ -11,14 +11,13 @@ struct picture_settings {
     bool has_max_error;
     double max_error; /* linear radiance, of a pixel's channel: rays that stay below it together are not
                          traced */
-    bool warned;      /* of overlaps, before: the scene has been packed already */
 };
 
 /* Rounds the scene to the single-precision form that device and reference read, in scene units, and settles
  * once, for both, what is certain of it: which side of an opaque plane the camera is on, what can shadow,
- * what can hold a ray's origin or a light. Warns of transparent bodies that overlap. On STATUS_DONE the
- * caller frees *packed with pack_destroy(); otherwise it is empty: STATUS_REFUSED (reported) for a light too
- * bright for the scene's size, STATUS_UNABLE without memory. */
+ * what can hold a ray's origin or a light. On STATUS_DONE the caller frees *packed with pack_destroy();
+ * otherwise it is empty: STATUS_REFUSED (reported) for a light too bright for the scene's size, STATUS_UNABLE
+ * without memory. */
 enum status pack_scene(const struct scene *scene, const struct picture_settings *settings,
                        struct packed_scene *packed);
 void pack_destroy(struct packed_scene *packed);

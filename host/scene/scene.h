@@ -77,7 +77,8 @@ struct scene {
 enum {
     SCENE_MAX_SIZE = 65536, /* pixels a side */
     SCENE_MAX_BOUNCES = 1000,
-    SCENE_MAX_SAMPLES = 65536, /* light samples a point, and samples a pixel */
+    SCENE_MAX_SAMPLES = 65536,      /* light samples a point, and samples a pixel */
+    SCENE_MAX_FILE_SIZE = 16 << 20, /* bytes; a thousand objects take a tenth of one MiB */
 };
 
 /* Reads and checks the YAML scene file at path. On STATUS_DONE the caller owns *scene and frees it
@@ -85,6 +86,9 @@ enum {
  * reported on standard error as "path:line:column: error: ..." with the line and a caret:
  * STATUS_REFUSED for a file that is not a scene, STATUS_UNABLE where there is no memory. */
 enum status scene_read(const char *path, struct scene *scene);
+
+/* The same for a scene file's content in memory; path is for the messages and for scene->path. */
+enum status scene_read_text(const char *path, const char *text, size_t length, struct scene *scene);
 
 /* Frees what the scene owns and empties it. An empty scene is fine. */
 void scene_destroy(struct scene *scene);

@@ -1,8 +1,6 @@
 #ifndef VKWHITTED_SCENE_SCHEMA_H
 #define VKWHITTED_SCENE_SCHEMA_H
 
-#include <stdint.h>
-
 #include "scene/yaml.h"
 
 /* Which keys a mapping of a scene file takes, and reading such a mapping into a struct. */
@@ -16,48 +14,57 @@ struct bound {
     const char *rule;
 };
 
-enum field_kind {
-    FIELD_NODE,   /* only found, not read */
-    FIELD_TYPE,   /* one of schema.types; goes to mapping.type */
-    FIELD_NAME,   /* char *, allocated, not empty, no control characters */
-    FIELD_NUMBER, /* double */
-    FIELD_VECTOR, /* double[3] */
-    FIELD_COUNT,  /* unsigned */
-};
+struct mapping;
+struct field;
+typedef void field_reader(struct mapping *mapping, const struct field *field, const struct yaml_value *value,
+                          void *member);
 
 struct field {
     const char *name;
-    enum field_kind kind;
+    field_reader *read; /* NULL: only found */
     bool required;
     unsigned types; /* bit set of the types that take it; 0: all */
     size_t offset;  /* in the struct read into */
     const struct bound *bounds;
 };
 
+field_reader read_type;   /* one of schema.types; goes to mapping.type */
+field_reader read_name;   /* to char *, allocated: not empty, no control characters */
+field_reader read_number; /* to double */
+field_reader read_vector; /* to double[3] */
+field_reader read_count;  /* to unsigned */
+
 struct schema {
-    const char *label;         /* "object" */
-    const char *const *types;  /* NULL where there is no key "type" */
-    const char *const *labels; /* of the types: "sphere", "plane" */
-    size_t type_count;
-    const struct field *fields;
-    size_t field_count;
+    const char *label;          /* "material", for messages; "" for the whole file */
+    bool type_alone;            /* an object of type sphere is called sphere, not sphere object */
+    const char *const *types;   /* ends with NULL; NULL where there is no key "type" */
+    const struct field *fields; /* ends with a nameless one */
 };
 
-/* What was found of a mapping. */
+/* A mapping that is being read. */
 struct mapping {
-    const struct yaml_node *node;
-    char label[2 * REPORT_QUOTE_SIZE];                 /* begins its messages: "sphere "Ball": " */
-    int type;                                          /* index into schema.types, or -1 */
-    const struct yaml_node *values[SCHEMA_MAX_FIELDS]; /* by field; NULL: not given */
-    bool good[SCHEMA_MAX_FIELDS];                      /* not given and not required, or given and right */
+    struct diagnostics *report;
+    const struct schema *schema;
+    struct yaml_value value;
+    char label[2 * REPORT_QUOTE_SIZE]; /* begins its messages: "sphere "Ball": " */
+    int type;                          /* index into schema.types, or -1 */
+    bool good;                         /* nothing of it was refused */
 };
 
 /* Reads node by the schema into the struct at item, whose members keep their values where keys are missing
  * or wrong. Reports unknown, doubled, misplaced and missing keys and wrong values. */
-void schema_read(struct diagnostics *report, const struct schema *schema, const struct yaml_node *node,
-                 void *item, struct mapping *mapping);
+void schema_read(struct diagnostics *report, const struct schema *schema, struct fy_node *node, void *item,
+                 struct mapping *mapping);
 
-/* Writes what stands at node, for "..., is %s"; returns out. */
-const char *schema_describe(const struct yaml_node *node, char out[REPORT_QUOTE_SIZE]);
+/* The value that the key is given first; written is NULL where it is not given. */
+struct yaml_value schema_find(const struct mapping *mapping, const char *key);
+
+/* Reports an error at node, with the mapping's label before the message. */
+__attribute__((format(printf, 3, 4))) void schema_refuse(struct mapping *mapping, struct fy_node *node,
+                                                         const char *format, ...);
+
+/* Reports "<key> must be <expected>, is <value>". */
+void schema_expect(struct mapping *mapping, const struct yaml_value *value, const char *key,
+                   const char *expected);
 
 #endif

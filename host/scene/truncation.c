@@ -21,34 +21,31 @@ static const double resolution = 0x1p-20;
  * of weights lose that much in 1000 bounces. */
 static const double slack = 0x1p-10;
 
-static struct dvec3 quad_corner(const struct PackedQuadLight *quad, int corner)
+static struct dvec3 quad_corner(const struct PackedQuadLight *quad, int number)
 {
-    struct dvec3 along_u = dvec3_scale(corner & 1, dvec3_of_vec4(quad->edge_u));
-    struct dvec3 along_v = dvec3_scale(corner >> 1, dvec3_of_vec4(quad->edge_v));
-    return dvec3_add(dvec3_of_vec4(quad->corner), dvec3_add(along_u, along_v));
+    return dvec3_corner(dvec3_of_vec4(quad->corner), dvec3_of_vec4(quad->edge_u), dvec3_of_vec4(quad->edge_v),
+                        number);
 }
 
-/* A matte sphere or, if that is NULL, plane. */
+/* A sphere (center, radius) or a plane (normal, offset). */
 struct body {
-    const struct PackedSphere *sphere;
-    const struct PackedPlane *plane;
+    bool is_sphere;
+    struct dvec3 vector;
+    double number;
 };
 
 /* Signed: positive outside the sphere and on the side of the plane's normal. */
-static double distance_from(struct body body, struct dvec3 point)
+static double distance_from(const struct body *body, struct dvec3 point)
 {
-    if (!body.sphere)
-        return dvec3_dot(dvec3_of_vec4(body.plane->normal_offset), point) -
-               (double)body.plane->normal_offset.w;
-    layout_vec4 sphere = body.sphere->center_radius;
-    return dvec3_length(dvec3_subtract(point, dvec3_of_vec4(sphere))) - (double)sphere.w;
+    return body->is_sphere ? dvec3_distance(point, body->vector) - body->number
+                           : dvec3_dot(body->vector, point) - body->number;
 }
 
 static double distance_from_segment(struct dvec3 from, struct dvec3 edge, struct dvec3 point)
 {
     double along = dvec3_dot(dvec3_subtract(point, from), edge) / dvec3_dot(edge, edge);
     struct dvec3 nearest = dvec3_add(from, dvec3_scale(fmin(1, fmax(0, along)), edge));
-    return dvec3_length(dvec3_subtract(point, nearest));
+    return dvec3_distance(point, nearest);
 }
 
 static double distance_from_quad(const struct PackedQuadLight *quad, struct dvec3 point)
@@ -68,7 +65,7 @@ static double distance_from_quad(const struct PackedQuadLight *quad, struct dvec
 }
 
 /* Between the body's surface and the quad; 0 where they meet. */
-static double quad_distance(struct body body, const struct PackedQuadLight *quad)
+static double quad_distance(const struct body *body, const struct PackedQuadLight *quad)
 {
     double nearest = INFINITY, farthest = -INFINITY;
     for (int i = 0; i < 4; ++i) {
@@ -76,9 +73,8 @@ static double quad_distance(struct body body, const struct PackedQuadLight *quad
         nearest = fmin(nearest, distance);
         farthest = fmax(farthest, distance);
     }
-    if (body.sphere) /* all corners in it: the quad is; but corners outside tell little */
-        nearest = distance_from_quad(quad, dvec3_of_vec4(body.sphere->center_radius)) -
-                  (double)body.sphere->center_radius.w;
+    if (body->is_sphere) /* all corners in it: the quad is; but corners outside tell little */
+        nearest = distance_from_quad(quad, body->vector) - body->number;
     return fmax(0, fmax(nearest, -farthest));
 }
 
@@ -90,9 +86,9 @@ static double inverse_square(double distance)
 
 /* The body's largest radiance. Oren-Nayar's A cos_in + B cos_in s / max(cos_in, cos_out), where s is at most
  * sin_in, is at most A cos_in + B sin_in. */
-static double matte_radiance(const struct packed_scene *scene, struct body body)
+static double matte_radiance(const struct packed_scene *scene, const PackedSurface *surface,
+                             const struct body *body)
 {
-    const PackedSurface *surface = body.sphere ? &body.sphere->surface : &body.plane->surface;
     if (surface->tags.SURFACE_KIND != KIND_MATTE)
         return 0;
     struct dvec3 irradiance = {0, 0, 0};
@@ -115,13 +111,21 @@ static double matte_radiance(const struct packed_scene *scene, struct body body)
            hypot((double)surface->parameters.OREN_NAYAR_A, (double)surface->more_parameters.OREN_NAYAR_B);
 }
 
-double truncation_radiance(const struct packed_scene *scene)
+/* Radiance that no ray of the scene brings more of, in any channel; INFINITY where there is no bound, because
+ * a light touches a matte surface. Holds for what float computes, not only for exact arithmetic. */
+static double largest_radiance(const struct packed_scene *scene)
 {
     double radiance = dvec3_largest(dvec3_of_vec4(scene->view.background));
-    for (int i = 0; i < scene->sphere_count; ++i)
-        radiance = fmax(radiance, matte_radiance(scene, (struct body){.sphere = &scene->spheres[i]}));
-    for (int i = 0; i < scene->plane_count; ++i)
-        radiance = fmax(radiance, matte_radiance(scene, (struct body){.plane = &scene->planes[i]}));
+    for (int i = 0; i < scene->sphere_count; ++i) {
+        layout_vec4 sphere = scene->spheres[i].center_radius;
+        const struct body body = {true, dvec3_of_vec4(sphere), (double)sphere.w};
+        radiance = fmax(radiance, matte_radiance(scene, &scene->spheres[i].surface, &body));
+    }
+    for (int i = 0; i < scene->plane_count; ++i) {
+        layout_vec4 plane = scene->planes[i].normal_offset;
+        const struct body body = {false, dvec3_of_vec4(plane), (double)plane.w};
+        radiance = fmax(radiance, matte_radiance(scene, &scene->planes[i].surface, &body));
+    }
     return radiance * (1 + slack);
 }
 
@@ -153,24 +157,25 @@ static layout_vec4 between_mirrors(const struct packed_scene *scene)
             return none;
         faced |= faces;
     }
-    for (int i = 0; i < scene->plane_count; ++i)
-        if (scene->planes[i].surface.tags.SURFACE_KIND == KIND_TRANSPARENT ||
-            (scene->planes[i].surface.tags.SURFACE_KIND == KIND_MATTE &&
-             fabs(dvec3_dot(dvec3_of_vec4(normal), dvec3_of_vec4(scene->planes[i].normal_offset))) >
-                 resolution))
+    for (int i = 0; i < scene->plane_count; ++i) {
+        int kind = scene->planes[i].surface.tags.SURFACE_KIND;
+        double cosine = dvec3_dot(dvec3_of_vec4(normal), dvec3_of_vec4(scene->planes[i].normal_offset));
+        if (kind == KIND_TRANSPARENT || (kind == KIND_MATTE && fabs(cosine) > resolution))
             return none;
+    }
     return faced ? normal : none;
 }
 
 void truncation_pack(struct packed_scene *scene, double max_error)
 {
-    double radiance = truncation_radiance(scene);
+    double radiance = largest_radiance(scene);
     double allowance = max_error * (1 - slack) - rounding(scene, radiance);
+    bool bounded = radiance < (double)unbounded;
     if (max_error >= 0)
         scene->view.between_mirrors = between_mirrors(scene);
     scene->view.truncation = (layout_vec4){
-        .x = radiance < (double)unbounded ? (float)(radiance * (1 + slack)) + darkest : unbounded,
-        .y = allowance > 0 && radiance < (double)unbounded ? (float)allowance : -1,
+        .RADIANCE_BOUND = bounded ? (float)(radiance * (1 + slack)) + darkest : unbounded,
+        .ALLOWANCE = bounded && allowance > 0 ? (float)allowance : -1,
     };
     layout_vec4 *truncation = &scene->view.truncation;
     if (truncation->ALLOWANCE >= 0)

@@ -6,10 +6,6 @@
 /* What a picture lacks of the one with all bounces: rays cut off by max_bounces, and rays left out on
  * purpose. cpu_reference/NUMERICS.md derives the bounds. */
 
-/* Radiance that no ray of the scene brings more of, in any channel; INFINITY where there is no bound, because
- * a light touches a matte surface. Holds for what float computes, not only for exact arithmetic. */
-double truncation_radiance(const struct packed_scene *scene);
-
 /* Writes the scene's view.truncation and view.between_mirrors for pixels that may differ by max_error from
  * the picture with all bounces; max_error < 0: no ray is left out. The lights, surfaces and samples of the
  * scene are final. */

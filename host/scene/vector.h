@@ -51,21 +51,37 @@ static inline double dvec3_largest(struct dvec3 v)
     return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
 }
 
-/* Scaled by a power of two first, so that the squares neither over- nor underflow. */
+/* v times the power of two that brings it near 1, where squares neither over- nor underflow. */
+static inline struct dvec3 dvec3_near_one(struct dvec3 v, int *exponent)
+{
+    frexp(dvec3_largest(v), exponent);
+    return (struct dvec3){ldexp(v.x, -*exponent), ldexp(v.y, -*exponent), ldexp(v.z, -*exponent)};
+}
+
 static inline double dvec3_length(struct dvec3 v)
 {
     int exponent;
-    frexp(dvec3_largest(v), &exponent);
-    struct dvec3 near_one = dvec3_scale(ldexp(1, -exponent), v);
+    struct dvec3 near_one = dvec3_near_one(v, &exponent);
     return ldexp(sqrt(dvec3_dot(near_one, near_one)), exponent);
+}
+
+static inline double dvec3_distance(struct dvec3 a, struct dvec3 b)
+{
+    return dvec3_length(dvec3_subtract(a, b));
 }
 
 static inline struct dvec3 dvec3_unit(struct dvec3 v)
 {
     int exponent;
-    frexp(dvec3_largest(v), &exponent);
-    struct dvec3 near_one = dvec3_scale(ldexp(1, -exponent), v);
+    struct dvec3 near_one = dvec3_near_one(v, &exponent);
     return dvec3_scale(1 / sqrt(dvec3_dot(near_one, near_one)), near_one);
+}
+
+/* One of the four corners of the parallelogram with edges u and v at corner 0; they are numbered row by row.
+ */
+static inline struct dvec3 dvec3_corner(struct dvec3 corner, struct dvec3 u, struct dvec3 v, int number)
+{
+    return dvec3_add(corner, dvec3_add(dvec3_scale(number & 1, u), dvec3_scale(number >> 1, v)));
 }
 
 #endif

@@ -1,43 +1,30 @@
 #ifndef VKWHITTED_SCENE_YAML_H
 #define VKWHITTED_SCENE_YAML_H
 
+#include <libfyaml.h>
+
 #include "scene/diagnostics.h"
 
-/* A YAML document as a tree that remembers where everything stands. */
+enum { YAML_TEXT_SIZE = 512 }; /* bytes, the terminator included */
 
-enum yaml_type {
-    YAML_SCALAR,
-    YAML_SEQUENCE,
-    YAML_MAPPING,
-    YAML_BROKEN, /* its error has been reported */
+/* What stands at a node of a document. */
+struct yaml_value {
+    struct fy_node *written, *node; /* differ for an alias: where it stands, and what it stands for */
+    enum fy_node_type type;
+    bool plain;    /* a scalar without quotes */
+    size_t length; /* of the text; YAML_TEXT_SIZE: longer than anything in a scene, and cut */
+    char text[YAML_TEXT_SIZE];
 };
 
-struct yaml_node {
-    enum yaml_type type;
-    struct scene_place place; /* of an alias: where the alias stands */
-    bool plain;               /* scalar: written without quotes or block style */
-    const char *text;         /* scalar: not terminated, may hold any bytes */
-    size_t length;
-    size_t count;                  /* sequence: items; mapping: keys and values */
-    const struct yaml_node *child; /* sequence: first item; mapping: first key, its ->next is the value */
-    struct yaml_node *next;        /* within the parent */
-};
+/* Parses report->text, one YAML 1.2 document in UTF-8 without tags, whose aliases are known. NULL where there
+ * is none, or after an error (reported); the caller destroys it. */
+struct fy_document *yaml_load(struct diagnostics *report);
 
-struct yaml_block;
+/* On lack of memory this and the next function set report->no_memory. */
+struct yaml_value yaml_read(struct diagnostics *report, struct fy_node *node);
 
-struct yaml_tree {
-    const struct yaml_node *root;
-    struct yaml_block *blocks; /* memory of all nodes and texts */
-};
-
-/* Parses report->text, one YAML 1.2 document in UTF-8, and reports every error there. tree->root stays NULL
- * where the text has no document or breaks YAML's syntax. Aliases are resolved, tags refused. In any case
- * the caller frees the tree with yaml_free(). */
-void yaml_parse(struct diagnostics *report, struct yaml_tree *tree);
-
-void yaml_free(struct yaml_tree *tree);
-
-/* An unquoted nothing: what stands behind "key:" at the end of a line. */
-bool yaml_is_empty(const struct yaml_node *node);
+/* Where the node is written. An empty value stands where its key does. Looking for an empty node takes long
+ * in a long list. */
+struct scene_place yaml_place(struct diagnostics *report, struct fy_node *node);
 
 #endif

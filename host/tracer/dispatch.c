@@ -1,232 +1,176 @@
+#include "tracer/dispatch.h"
+
 #include <stdio.h>
-#include <string.h>
 
 #include "base/clock.h"
-#include "base/interrupt.h"
-#include "tracer/tracer_private.h"
-#include "vulkan/debug.h"
 
-static void record_barrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
-                           VkPipelineStageFlags to, VkAccessFlags read)
+enum { CONSTANTS = sizeof(struct specialization) / sizeof(uint32_t) };
+_Static_assert((int)CONSTANTS <= (int)PASS_MOST_CONSTANTS && (int)BINDINGS <= (int)PASS_MOST_BINDINGS, "");
+
+static size_t pixel_size(const struct dispatcher *dispatcher)
 {
-    vkCmdPipelineBarrier(commands, from, to, 0, 1,
-                         &(VkMemoryBarrier){
-                             .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                             .srcAccessMask = written,
-                             .dstAccessMask = read,
-                         },
-                         0, NULL, 0, NULL);
+    return CHANNELS * (dispatcher->value_type == VALUE_DOUBLE ? sizeof(double) : sizeof(float));
 }
 
-/* What a dispatch does for each pixel of its tile. */
-struct portion {
-    uint32_t first_sample, end_sample;
-    bool goes_on; /* with what the dispatch before has left */
-};
-
-static enum status record_tile(struct tracer *tracer, struct window tile, struct portion portion)
+static enum status create_picture(struct dispatcher *dispatcher)
 {
-    const VkCommandBuffer commands = tracer->commands;
-    const struct push_constants constants = {
-        tile.x,
-        tile.y,
-        tile.width,
-        tile.height,
-        tracer->picture_width,
-        tracer->picture_height,
-        portion.first_sample,
-        portion.end_sample,
-        portion.goes_on,
-    };
-    VULKAN_CALL(vkBeginCommandBuffer, commands,
-                &(VkCommandBufferBeginInfo){
-                    .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                    .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
-                });
-    char label[96];
-    snprintf(label, sizeof label, "tile of %ux%u at %u, %u, samples %u to %u", tile.width, tile.height,
-             tile.x, tile.y, portion.first_sample, portion.end_sample);
-    vulkan_label_begin(tracer->context, commands, label);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->pipeline);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->pipeline_layout, 0, 1,
-                            &tracer->set, 0, NULL);
-    vkCmdPushConstants(commands, tracer->pipeline_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
-                       &constants);
-    record_barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                   VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
-    if (tracer->timestamps) {
-        vkCmdResetQueryPool(commands, tracer->timestamps, 0, 2);
-        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, tracer->timestamps, 0);
-    }
-    unsigned group_rows = tracer->shape.height * tracer->shape.rows;
-    vkCmdDispatch(commands, (tile.width + tracer->shape.width - 1) / tracer->shape.width,
-                  (tile.height + group_rows - 1) / group_rows, 1);
-    if (tracer->timestamps)
-        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, tracer->timestamps, 1);
-    if (tracer->staging.buffer) {
-        record_barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                       VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_HOST_BIT,
-                       VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_HOST_READ_BIT);
-        vkCmdCopyBuffer(commands, tracer->picture.buffer, tracer->staging.buffer, 1,
-                        &(VkBufferCopy){
-                            .size = (VkDeviceSize)tile.width * tile.height * pixel_size(tracer),
-                        });
-        record_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                       VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
-    } else {
-        record_barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                       VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
-    }
-    vulkan_label_end(tracer->context, commands);
-    VULKAN_CALL(vkEndCommandBuffer, commands);
-    return STATUS_DONE;
-
-error:
-    return STATUS_UNABLE;
-}
-
-/* Adds the portion to the tile in the buffer that the host reads, and the device's time to *dispatch_ms. */
-static enum status dispatch_tile(struct tracer *tracer, struct window tile, struct portion portion,
-                                 double *dispatch_ms)
-{
-    const VkDevice device = tracer->context->device;
-    enum status status = interrupt_requested() ? STATUS_INTERRUPTED : record_tile(tracer, tile, portion);
-    if (status != STATUS_DONE)
-        return status;
-    double start = clock_ms();
-    VULKAN_CALL(vkQueueSubmit, tracer->context->queue, 1,
-                &(VkSubmitInfo){
-                    .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
-                    .commandBufferCount = 1,
-                    .pCommandBuffers = &tracer->commands,
-                },
-                tracer->fence);
-    VULKAN_CALL(vkWaitForFences, device, 1, &tracer->fence, VK_TRUE, UINT64_MAX);
-    VULKAN_CALL(vkResetFences, device, 1, &tracer->fence);
-    if (tracer->timestamps) {
-        uint64_t ticks[2];
-        VULKAN_CALL(vkGetQueryPoolResults, device, tracer->timestamps, 0, 2, sizeof ticks, ticks,
-                    sizeof *ticks, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
-        uint64_t mask = UINT64_MAX >> (64 - tracer->context->timestamp_bits);
-        *dispatch_ms += (double)((ticks[1] - ticks[0]) & mask) *
-                        (double)tracer->context->properties.limits.timestampPeriod * 1e-6;
-    } else {
-        *dispatch_ms += clock_ms() - start;
-    }
-    return STATUS_DONE;
-
-error:
-    return STATUS_UNABLE;
-}
-
-static const void *tile_values(const struct tracer *tracer)
-{
-    return tracer->staging.buffer ? tracer->staging.mapped : tracer->picture.mapped;
-}
-
-/* The lowest mark of a pixel that has no value yet, UNFINISHED or TOO_LONG, or something lower where ended
- * loops have left a pixel as it was in memory; 0 if all have values. */
-static double tile_mark(const struct tracer *tracer, struct window tile)
-{
-    const float *floats = tile_values(tracer);
-    const double *doubles = tile_values(tracer);
-    size_t count = (size_t)tile.width * tile.height * CHANNELS;
-    double mark = 0;
-    for (size_t i = 0; i < count; i += CHANNELS) {
-        double value = tracer->double_precision ? doubles[i] : (double)floats[i];
-        mark = value < mark ? value : mark;
-    }
-    return mark;
-}
-
-/* Renders the tile's samples, a part of them at a time. *too_long: the driver may have ended loops early. */
-static enum status render_tile(struct tracer *tracer, struct window tile, double *dispatch_ms, bool *too_long)
-{
-    const uint32_t samples = (uint32_t)tracer->packed->samples;
-    enum status status = STATUS_DONE;
-    *too_long = false;
-    for (uint32_t first = 0, end; first < samples && status == STATUS_DONE && !*too_long; first = end) {
-        end = samples - first < tracer->samples_per_dispatch ? samples : first + tracer->samples_per_dispatch;
-        struct portion portion = {first, end, false};
-        double mark;
-        do {
-            status = dispatch_tile(tracer, tile, portion, dispatch_ms);
-            mark = status == STATUS_DONE ? tile_mark(tracer, tile) : 0;
-            portion.goes_on = true;
-        } while (mark == UNFINISHED);
-        *too_long = mark <= TOO_LONG;
-    }
+    VkDeviceSize size = dispatcher->size.tile_pixels * pixel_size(dispatcher);
+    enum status status =
+        vulkan_buffer_create(dispatcher->context, "tile of the picture", size,
+                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                             BUFFER_DEVICE, &dispatcher->picture);
+    if (status == STATUS_DONE && !dispatcher->picture.mapped)
+        status =
+            vulkan_buffer_create(dispatcher->context, "tile for the host", size,
+                                 VK_BUFFER_USAGE_TRANSFER_DST_BIT, BUFFER_READBACK, &dispatcher->staging);
+    dispatcher->values = dispatcher->staging.buffer ? dispatcher->staging.mapped : dispatcher->picture.mapped;
     return status;
 }
 
-/* Copies the finished tile into its place in the image of the window. */
-static void copy_tile(const struct tracer *tracer, struct window window, struct window tile,
-                      struct image *image)
+static enum status create_saved(struct dispatcher *dispatcher)
 {
-    const float *floats = tile_values(tracer);
-    const double *doubles = tile_values(tracer);
-    size_t count = (size_t)tile.width * CHANNELS;
-    for (unsigned row = 0; row < tile.height; ++row) {
-        size_t from = row * count;
-        size_t to = ((size_t)(tile.y - window.y + row) * window.width + (tile.x - window.x)) * CHANNELS;
-        if (!tracer->double_precision) {
-            memcpy(image->rgb + to, floats + from, count * sizeof *floats);
-            continue;
-        }
-        for (size_t i = 0; i < count; ++i)
-            image->rgb[to + i] = (float)doubles[from + i];
-        if (image->rgb64)
-            memcpy(image->rgb64 + to, doubles + from, count * sizeof *doubles);
-    }
+    const VkDeviceSize pixels = dispatcher->size.tile_pixels;
+    enum status status =
+        vulkan_buffer_create(dispatcher->context, "saved pixels", pixels * SAVED_PIXEL_BYTES,
+                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BUFFER_DEVICE, &dispatcher->saved_pixels);
+    if (status == STATUS_DONE)
+        status = vulkan_buffer_create(
+            dispatcher->context, "saved stacks", pixels * dispatcher->size.stack_room * SAVED_PATH_BYTES,
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BUFFER_DEVICE, &dispatcher->saved_stacks);
+    return status;
 }
 
-static enum status render_tiles(struct tracer *tracer, struct window window, struct image *image,
-                                struct progress *progress, double *dispatch_ms, bool *too_long)
+static enum status create_events(struct dispatcher *dispatcher, uint32_t room)
 {
-    /* an invocation traces all its rows, also those below the tile: whole ones, if possible */
-    const unsigned rows = tracer->shape.rows;
-    unsigned tile_width = window.width < 1024 ? window.width : 1024;
-    if (tile_width > tracer->tile_pixels / rows)
-        tile_width = tracer->tile_pixels > rows ? tracer->tile_pixels / rows : 1;
-    unsigned tile_height = tracer->tile_pixels / tile_width;
-    tile_height -= tile_height > rows ? tile_height % rows : 0;
-    for (unsigned y = 0; y < window.height; y += tile_height) {
-        for (unsigned x = 0; x < window.width; x += tile_width) {
-            struct window tile = {
-                .x = window.x + x,
-                .y = window.y + y,
-                .width = window.width - x < tile_width ? window.width - x : tile_width,
-                .height = window.height - y < tile_height ? window.height - y : tile_height,
-            };
-            enum status status = render_tile(tracer, tile, dispatch_ms, too_long);
-            if (status != STATUS_DONE || *too_long)
-                return status;
-            copy_tile(tracer, window, tile, image);
-            progress_advance(progress, (uint64_t)tile.width * tile.height);
-        }
-    }
-    return STATUS_DONE;
+    size_t value_size = pixel_size(dispatcher) / CHANNELS;
+    enum status status =
+        vulkan_buffer_create(dispatcher->context, "events",
+                             sizeof(struct event_block) +
+                                 (sizeof(struct EventHead) + EVENT_VALUES * value_size) * (VkDeviceSize)room,
+                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BUFFER_READBACK, &dispatcher->events);
+    if (status == STATUS_DONE)
+        *(struct event_block *)dispatcher->events.mapped = (struct event_block){.room = room};
+    return status;
 }
 
-enum status tracer_render(struct tracer *tracer, struct window window, struct image *image,
-                          struct progress *progress, double *dispatch_ms)
+static enum status create_pass(struct dispatcher *dispatcher, const struct dispatcher_info *info)
 {
-    uint64_t done = progress->done;
-    bool too_long = false;
-    *dispatch_ms = 0;
-    enum status status = render_tiles(tracer, window, image, progress, dispatch_ms, &too_long);
-    if (status == STATUS_DONE && too_long && !tracer->resumable) {
-        log_info("the driver may have ended loops early; going on in smaller portions");
-        progress->done = done;
-        *dispatch_ms = 0;
-        status = tracer_become_resumable(tracer);
-        if (status == STATUS_DONE)
-            status = render_tiles(tracer, window, image, progress, dispatch_ms, &too_long);
+    /* the buffers that the pipeline does not use need something in their places */
+    const VkBuffer picture = dispatcher->picture.buffer;
+    const VkBuffer buffers[BINDINGS] = {
+        [PICTURE] = picture,
+        [SAVED_PIXELS] = info->size.stack_room ? dispatcher->saved_pixels.buffer : picture,
+        [SAVED_STACKS] = info->size.stack_room ? dispatcher->saved_stacks.buffer : picture,
+        [EVENTS] = dispatcher->events.buffer,
+    };
+    struct pass_binding bindings[BINDINGS];
+    for (uint32_t i = 0; i < BINDINGS; ++i) {
+        bindings[i].type = is_storage_buffer(i, info->scene_in_storage) ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                                                        : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        bindings[i].memory = i < SCENE_BINDINGS ? info->scene->parts[i]
+                                                : (VkDescriptorBufferInfo){buffers[i], 0, VK_WHOLE_SIZE};
     }
-    if (status != STATUS_DONE || !too_long)
+    struct pass_constant constants[CONSTANTS];
+    for (uint32_t i = 0; i < CONSTANTS; ++i)
+        constants[i] = (struct pass_constant){i, ((const uint32_t *)&info->constants)[i]};
+    double start = clock_ms();
+    enum status status = vulkan_pass_create(dispatcher->context,
+                                            &(struct pass_info){
+                                                .name = "whitted.comp",
+                                                .code = info->code,
+                                                .constants = constants,
+                                                .constant_count = CONSTANTS,
+                                                .bindings = bindings,
+                                                .binding_count = info->event_room > 0 ? BINDINGS : EVENTS,
+                                                .push_constant_size = sizeof(struct portion),
+                                            },
+                                            &dispatcher->pass);
+    log_info("pipeline built in %.1f ms", clock_ms() - start);
+    return status;
+}
+
+enum status dispatcher_create(struct vulkan_context *context, const struct dispatcher_info *info,
+                              struct dispatcher *dispatcher)
+{
+    const int output = info->constants.output;
+    *dispatcher = (struct dispatcher){
+        .context = context,
+        .size = info->size,
+        .value_type = output == OUTPUT_RAYS || output == OUTPUT_SIGNATURE ? VALUE_UINT32
+                      : info->double_precision                            ? VALUE_DOUBLE
+                                                                          : VALUE_FLOAT,
+    };
+    enum status status = create_picture(dispatcher);
+    if (status == STATUS_DONE && info->size.stack_room > 0)
+        status = create_saved(dispatcher);
+    if (status == STATUS_DONE && info->event_room > 0)
+        status = create_events(dispatcher, info->event_room);
+    if (status == STATUS_DONE)
+        status = create_pass(dispatcher, info);
+    if (status == STATUS_DONE)
+        status = vulkan_command_create(context, &dispatcher->command);
+    if (status != STATUS_DONE)
+        dispatcher_destroy(dispatcher);
+    return status;
+}
+
+void dispatcher_destroy(struct dispatcher *dispatcher)
+{
+    struct vulkan_context *context = dispatcher->context;
+    if (!context)
+        return;
+    vulkan_command_destroy(&dispatcher->command);
+    vulkan_pass_destroy(&dispatcher->pass);
+    vulkan_buffer_destroy(context, &dispatcher->events);
+    vulkan_buffer_destroy(context, &dispatcher->saved_stacks);
+    vulkan_buffer_destroy(context, &dispatcher->saved_pixels);
+    vulkan_buffer_destroy(context, &dispatcher->staging);
+    vulkan_buffer_destroy(context, &dispatcher->picture);
+    *dispatcher = (struct dispatcher){0};
+}
+
+enum status dispatcher_run(struct dispatcher *dispatcher, const struct portion *portion, double *dispatch_ms)
+{
+    struct vulkan_command *command = &dispatcher->command;
+    const struct group_shape *shape = &dispatcher->size.shape;
+    const unsigned group_rows = shape->height * shape->rows;
+    char label[96];
+    double device_ms = 0;
+    snprintf(label, sizeof label, "tile of %ux%u at %u, %u, samples %u to %u", portion->tile_width,
+             portion->tile_height, portion->tile_x, portion->tile_y, portion->first_sample,
+             portion->end_sample);
+    enum status status = vulkan_command_begin(command, label);
+    if (status != STATUS_DONE)
         return status;
-    log_error("%s ends the shader's loops after 65535 turns, too early for so many light samples",
-              tracer->context->properties.deviceName);
-    return STATUS_UNABLE;
+    vulkan_pass_record(&dispatcher->pass, command, portion,
+                       (portion->tile_width + shape->width - 1) / shape->width,
+                       (portion->tile_height + group_rows - 1) / group_rows);
+    if (dispatcher->staging.buffer) {
+        vulkan_record_barrier(command->buffer, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+        vkCmdCopyBuffer(
+            command->buffer, dispatcher->picture.buffer, dispatcher->staging.buffer, 1,
+            &(VkBufferCopy){
+                .size = (VkDeviceSize)portion->tile_width * portion->tile_height * pixel_size(dispatcher),
+            });
+    }
+    status = vulkan_command_submit(command);
+    if (status == STATUS_DONE)
+        status = vulkan_command_wait(command, &device_ms);
+    *dispatch_ms += device_ms;
+    return status;
+}
+
+double dispatcher_mark(const struct dispatcher *dispatcher, size_t pixels)
+{
+    const float *floats = dispatcher->values;
+    const double *doubles = dispatcher->values;
+    const int32_t *integers = dispatcher->values;
+    double mark = 0;
+    for (size_t i = 0; i < pixels * CHANNELS; i += CHANNELS) {
+        double value = dispatcher->value_type == VALUE_DOUBLE   ? doubles[i]
+                       : dispatcher->value_type == VALUE_UINT32 ? integers[i]
+                                                                : (double)floats[i];
+        mark = value < mark ? value : mark;
+    }
+    return mark;
 }

@@ -1,7 +1,7 @@
+#include "tracer/interface.h"
+
 #include <stdio.h>
 #include <stdlib.h>
-
-#include "tracer/tracer_private.h"
 
 /* Numbers of the SPIR-V specification. */
 enum {
@@ -14,6 +14,11 @@ enum {
     CLASS_UNIFORM = 2,
     CLASS_STORAGE_BUFFER = 12,
 };
+
+bool is_storage_buffer(uint32_t binding, bool scene_in_storage)
+{
+    return binding >= PICTURE || (binding != VIEW && scene_in_storage);
+}
 
 /* Where a variable's descriptor is. */
 struct place {

@@ -1,6 +1,7 @@
 #include "tracer/job.h"
 
 #include "base/interrupt.h"
+#include "scene/warnings.h"
 
 static enum status choose_window(const struct job_options *options, const struct picture_settings *settings,
                                  struct window *window)
@@ -53,7 +54,10 @@ enum status job_create(const struct job_options *options, const char *scene_path
     *job = (struct job){0};
     struct scene scene;
     enum status status = scene_read(scene_path, &scene);
-    return status == STATUS_DONE ? job_create_from(options, &scene, job) : status;
+    if (status != STATUS_DONE)
+        return status;
+    scene_warn(&scene);
+    return job_create_from(options, &scene, job);
 }
 
 void job_destroy(struct job *job)

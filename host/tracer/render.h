@@ -1,6 +1,7 @@
 #ifndef VKWHITTED_TRACER_RENDER_H
 #define VKWHITTED_TRACER_RENDER_H
 
+#include "base/progress.h"
 #include "image/image.h"
 #include "packed_scene.h"
 #include "reference.h"
@@ -52,5 +53,17 @@ enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatu
  * caller. */
 enum status explain_on_cpu(const struct render_plan *plan, enum precision precision,
                            struct reference_explanation **explanations);
+
+/* What the two backends share. A function of theirs that renders the plan's window once into the image. */
+typedef enum status render_once(void *renderer, const struct render_plan *plan, struct image *image,
+                                struct progress *progress, double *milliseconds);
+
+/* Renders once cold and plan->repeat times warm, and fills rendering's image and times. On failure there is
+ * no image. */
+enum status render_repeatedly(render_once *render, void *renderer, const struct render_plan *plan,
+                              struct rendering *rendering);
+
+/* Room for a value of so many bytes a pixel, all 0; NULL (reported) without memory. */
+void *allocate_pixels(const struct window *window, size_t size);
 
 #endif

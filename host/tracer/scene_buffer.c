@@ -1,6 +1,6 @@
-#include <string.h>
+#include "tracer/scene_buffer.h"
 
-#include "tracer/tracer_private.h"
+#include <string.h>
 
 /* A part of the scene as it lies in memory; the buffer has room for at least one element. */
 struct scene_part {
@@ -24,7 +24,7 @@ static VkDeviceSize part_range(const struct scene_part parts[SCENE_BINDINGS], in
     return parts[i].element_size * (parts[i].count + (i == VIEW ? 0 : 1));
 }
 
-bool tracer_scene_needs_storage(const struct vulkan_context *context, const struct packed_scene *scene)
+bool scene_needs_storage(const struct vulkan_context *context, const struct packed_scene *scene)
 {
     struct scene_part parts[SCENE_BINDINGS];
     bool needed = false;
@@ -34,39 +34,34 @@ bool tracer_scene_needs_storage(const struct vulkan_context *context, const stru
     return needed;
 }
 
-void tracer_copy_scene(struct tracer *tracer, const struct packed_scene *scene)
+void scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_scene *scene)
 {
     struct scene_part parts[SCENE_BINDINGS];
     list_parts(scene, parts);
-    for (int i = 0; i < SCENE_BINDINGS; ++i) {
-        unsigned char *place = (unsigned char *)tracer->scene.mapped + tracer->bindings[i].offset;
+    for (int i = 0; i < SCENE_BINDINGS; ++i)
         if (parts[i].count > 0)
-            memcpy(place, parts[i].data, parts[i].element_size * parts[i].count);
-    }
+            memcpy((unsigned char *)scene_buffer->buffer.mapped + scene_buffer->parts[i].offset,
+                   parts[i].data, parts[i].element_size * parts[i].count);
 }
 
-enum status tracer_upload_scene(struct tracer *tracer, const struct packed_scene *scene)
+enum status scene_buffer_create(struct vulkan_context *context, const struct packed_scene *scene,
+                                struct scene_buffer *scene_buffer)
 {
     static const VkDeviceSize alignment = 256; /* the largest offset alignment that Vulkan allows a device */
     struct scene_part parts[SCENE_BINDINGS];
     VkDeviceSize size = 0;
     list_parts(scene, parts);
     for (int i = 0; i < SCENE_BINDINGS; ++i) {
-        VkDeviceSize range = part_range(parts, i);
-        tracer->bindings[i] = (VkDescriptorBufferInfo){.offset = size, .range = range};
-        size += (range + alignment - 1) / alignment * alignment;
+        scene_buffer->parts[i] = (VkDescriptorBufferInfo){.offset = size, .range = part_range(parts, i)};
+        size += (scene_buffer->parts[i].range + alignment - 1) / alignment * alignment;
     }
     enum status status = vulkan_buffer_create(
-        tracer->context, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-        (VkMemoryPropertyFlags[]){VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
-                                      VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                                  VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                                  0},
-        &tracer->scene);
+        context, "scene", size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+        BUFFER_UPLOAD, &scene_buffer->buffer);
     if (status != STATUS_DONE)
         return status;
     for (int i = 0; i < SCENE_BINDINGS; ++i)
-        tracer->bindings[i].buffer = tracer->scene.buffer;
-    tracer_copy_scene(tracer, scene);
+        scene_buffer->parts[i].buffer = scene_buffer->buffer.buffer;
+    scene_buffer_update(scene_buffer, scene);
     return STATUS_DONE;
 }

@@ -37,18 +37,13 @@ struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage)
     return variants[variant][scene_in_storage];
 }
 
-const char *whitted_defines(enum whitted_variant variant, bool scene_in_storage)
+const char *const *whitted_defines(enum whitted_variant variant, bool scene_in_storage)
 {
-#define VARIANT(defines)                                                                                     \
-    {                                                                                                        \
-        defines, defines "#define SCENE_IN_STORAGE\n"                                                        \
-    }
-    static const char *const variants[][2] = {
-        [WHITTED_EXACT] = VARIANT(""),
-        [WHITTED_CORRECTED] = VARIANT("#define CORRECTED\n"),
-        [WHITTED_DOUBLE] = VARIANT("#define DOUBLE\n"),
-        [WHITTED_FAST] = VARIANT("#define FAST\n"),
+    static const char *const variants[][2][3] = {
+        [WHITTED_EXACT] = {{NULL}, {"-DSCENE_IN_STORAGE"}},
+        [WHITTED_CORRECTED] = {{"-DCORRECTED"}, {"-DCORRECTED", "-DSCENE_IN_STORAGE"}},
+        [WHITTED_DOUBLE] = {{"-DDOUBLE"}, {"-DDOUBLE", "-DSCENE_IN_STORAGE"}},
+        [WHITTED_FAST] = {{"-DFAST"}, {"-DFAST", "-DSCENE_IN_STORAGE"}},
     };
-#undef VARIANT
     return variants[variant][scene_in_storage];
 }

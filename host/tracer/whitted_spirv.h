@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-#include "vulkan/pipeline.h"
+#include "vulkan/pass.h"
 
 enum whitted_variant {
     WHITTED_EXACT,
@@ -19,8 +19,8 @@ enum whitted_variant {
 /* shaders/whitted.comp as compiled by the build, the scene in uniform or in storage buffers. */
 struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage);
 
-/* What the build defines for it: lines of GLSL to put before the first of whitted.comp. Not for
- * the variants that tell of one pixel. */
-const char *whitted_defines(enum whitted_variant variant, bool scene_in_storage);
+/* The options with which the build has glslangValidator compile it; NULL behind the last. Not for the
+ * variants that tell of one pixel. */
+const char *const *whitted_defines(enum whitted_variant variant, bool scene_in_storage);
 
 #endif

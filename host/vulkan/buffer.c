@@ -2,18 +2,33 @@
 
 #include <inttypes.h>
 
-/* The first memory type of those allowed that has the properties, or UINT32_MAX. */
+enum {
+    LOCAL = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+    HOST = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+    CACHED = HOST | VK_MEMORY_PROPERTY_HOST_CACHED_BIT,
+};
+
+/* The best of the allowed memory types. Each device has one for the last of each row (Vulkan 1.3, 11.2.1). */
 static uint32_t find_memory_type(const struct vulkan_context *context, uint32_t allowed,
-                                 VkMemoryPropertyFlags properties)
+                                 enum buffer_memory memory)
 {
-    for (uint32_t i = 0; i < context->memory.memoryTypeCount; ++i)
-        if ((allowed >> i & 1) && (context->memory.memoryTypes[i].propertyFlags & properties) == properties)
-            return i;
-    return UINT32_MAX;
+    static const VkMemoryPropertyFlags preferences[][3] = {
+        [BUFFER_DEVICE] = {LOCAL | CACHED, LOCAL, 0},
+        [BUFFER_UPLOAD] = {LOCAL | HOST, HOST, HOST},
+        [BUFFER_READBACK] = {CACHED, HOST, HOST},
+    };
+    for (int preference = 0; preference < 3; ++preference) {
+        VkMemoryPropertyFlags wanted = preferences[memory][preference];
+        for (uint32_t i = 0; i < context->memory.memoryTypeCount; ++i)
+            if ((allowed >> i & 1) && (context->memory.memoryTypes[i].propertyFlags & wanted) == wanted)
+                return i;
+    }
+    return 0;
 }
 
-enum status vulkan_buffer_create(struct vulkan_context *context, VkDeviceSize size, VkBufferUsageFlags usage,
-                                 const VkMemoryPropertyFlags *property_sets, struct vulkan_buffer *buffer)
+enum status vulkan_buffer_create(struct vulkan_context *context, const char *name, VkDeviceSize size,
+                                 VkBufferUsageFlags usage, enum buffer_memory memory,
+                                 struct vulkan_buffer *buffer)
 {
     *buffer = (struct vulkan_buffer){0};
     VULKAN_CALL(vkCreateBuffer, context->device,
@@ -23,11 +38,10 @@ enum status vulkan_buffer_create(struct vulkan_context *context, VkDeviceSize si
                     .usage = usage,
                 },
                 NULL, &buffer->buffer);
+    vulkan_name(context, VK_OBJECT_TYPE_BUFFER, (uint64_t)buffer->buffer, name);
     VkMemoryRequirements requirements;
     vkGetBufferMemoryRequirements(context->device, buffer->buffer, &requirements);
-    uint32_t type = find_memory_type(context, requirements.memoryTypeBits, *property_sets);
-    while (type == UINT32_MAX && *property_sets != 0)
-        type = find_memory_type(context, requirements.memoryTypeBits, *++property_sets);
+    uint32_t type = find_memory_type(context, requirements.memoryTypeBits, memory);
     VkResult result = vkAllocateMemory(context->device,
                                        &(VkMemoryAllocateInfo){
                                            .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
@@ -41,8 +55,7 @@ enum status vulkan_buffer_create(struct vulkan_context *context, VkDeviceSize si
         goto error;
     }
     VULKAN_CALL(vkBindBufferMemory, context->device, buffer->buffer, buffer->memory, 0);
-    buffer->properties = context->memory.memoryTypes[type].propertyFlags;
-    if (buffer->properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT)
+    if (memory != BUFFER_DEVICE || (context->memory.memoryTypes[type].propertyFlags & CACHED) == CACHED)
         VULKAN_CALL(vkMapMemory, context->device, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->mapped);
     return STATUS_DONE;
 

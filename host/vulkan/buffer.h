@@ -3,17 +3,25 @@
 
 #include "vulkan/context.h"
 
-/* A buffer with memory of its own, mapped if the host can see it. */
+enum buffer_memory {
+    BUFFER_DEVICE,   /* the device's own; mapped only where the host reads it as fast as its own */
+    BUFFER_UPLOAD,   /* the host writes, the device reads */
+    BUFFER_READBACK, /* the device writes, the host reads */
+};
+
+/* A buffer with memory of its own. */
 struct vulkan_buffer {
     VkBuffer buffer;
     VkDeviceMemory memory;
-    VkMemoryPropertyFlags properties;
-    void *mapped; /* NULL: only the device sees it */
+    void *mapped; /* for the host, without flushes; NULL: the host does not see it */
 };
 
-/* Memory of the first property set that the device has; sets end with 0, which any memory satisfies. */
-enum status vulkan_buffer_create(struct vulkan_context *context, VkDeviceSize size, VkBufferUsageFlags usage,
-                                 const VkMemoryPropertyFlags *property_sets, struct vulkan_buffer *buffer);
+/* Makes a buffer, its bytes undefined. On failure (reported) *buffer is empty. The name is for debuggers. */
+enum status vulkan_buffer_create(struct vulkan_context *context, const char *name, VkDeviceSize size,
+                                 VkBufferUsageFlags usage, enum buffer_memory memory,
+                                 struct vulkan_buffer *buffer);
+
+/* Destroys a buffer that the device no longer uses, or nothing, and empties *buffer. */
 void vulkan_buffer_destroy(struct vulkan_context *context, struct vulkan_buffer *buffer);
 
 #endif

@@ -1,12 +1,12 @@
 #ifndef VKWHITTED_VULKAN_COMPUTE_H
 #define VKWHITTED_VULKAN_COMPUTE_H
 
-#include "vulkan/pipeline.h"
+#include "vulkan/pass.h"
 
 /* A dispatch with an input (binding 0 of set 0) and an output (binding 1), both storage buffers. */
 struct compute_job {
     struct spirv code;
-    const uint32_t *constants; /* the specialization constants 0, 1, 2... */
+    const struct pass_constant *constants;
     uint32_t constant_count;
     const void *input;
     size_t input_size; /* bytes */

@@ -7,9 +7,49 @@
 #include <strings.h>
 
 #include "base/number.h"
-#include "vulkan/debug.h"
 
 static const char validation_layer[] = "VK_LAYER_KHRONOS_validation";
+
+const char *vulkan_result_name(VkResult result)
+{
+#define NAME(name)                                                                                           \
+    case name:                                                                                               \
+        return #name
+    switch (result) {
+        NAME(VK_ERROR_OUT_OF_HOST_MEMORY);
+        NAME(VK_ERROR_OUT_OF_DEVICE_MEMORY);
+        NAME(VK_ERROR_INITIALIZATION_FAILED);
+        NAME(VK_ERROR_DEVICE_LOST);
+        NAME(VK_ERROR_MEMORY_MAP_FAILED);
+        NAME(VK_ERROR_LAYER_NOT_PRESENT);
+        NAME(VK_ERROR_EXTENSION_NOT_PRESENT);
+        NAME(VK_ERROR_FEATURE_NOT_PRESENT);
+        NAME(VK_ERROR_INCOMPATIBLE_DRIVER);
+        NAME(VK_ERROR_TOO_MANY_OBJECTS);
+        NAME(VK_INCOMPLETE);
+        NAME(VK_NOT_READY);
+        NAME(VK_TIMEOUT);
+        NAME(VK_SUBOPTIMAL_KHR);
+        NAME(VK_ERROR_OUT_OF_DATE_KHR);
+        NAME(VK_ERROR_SURFACE_LOST_KHR);
+        NAME(VK_ERROR_NATIVE_WINDOW_IN_USE_KHR);
+    default:
+        return "VkResult not known to vkwhitted";
+    }
+#undef NAME
+}
+
+void vulkan_name(struct vulkan_context *context, VkObjectType type, uint64_t handle, const char *name)
+{
+    if (handle)
+        context->set_object_name(context->device,
+                                 &(VkDebugUtilsObjectNameInfoEXT){
+                                     .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+                                     .objectType = type,
+                                     .objectHandle = handle,
+                                     .pObjectName = name,
+                                 });
+}
 
 static VKAPI_ATTR VkBool32 VKAPI_CALL report_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                      VkDebugUtilsMessageTypeFlagsEXT types,
@@ -24,38 +64,26 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL report_message(VkDebugUtilsMessageSeverity
     return VK_FALSE;
 }
 
-static bool has_validation_layer(void)
+static void report_no_device(void)
 {
-    bool found = false;
-    uint32_t count = 0;
-    VkLayerProperties *layers = NULL;
-    if (vkEnumerateInstanceLayerProperties(&count, NULL) == VK_SUCCESS &&
-        (layers = calloc(count + 1, sizeof *layers)) != NULL &&
-        vkEnumerateInstanceLayerProperties(&count, layers) == VK_SUCCESS)
-        for (uint32_t i = 0; i < count; ++i)
-            found = found || strcmp(layers[i].layerName, validation_layer) == 0;
-    free(layers);
-    return found;
+    log_error("no Vulkan device found; Debian's mesa-vulkan-drivers has one that needs no graphics card");
 }
+
+/* The function of the instance, which has VK_EXT_debug_utils. */
+#define FIND(context, name) (PFN_##name)(void (*)(void)) vkGetInstanceProcAddr((context)->instance, #name)
 
 static enum status create_instance(struct vulkan_context *context, const struct vulkan_options *options)
 {
     const bool validate = options->validate;
-    const char *extensions[8];
-    uint32_t extension_count = options->instance_extension_count;
-    if (extension_count >= sizeof extensions / sizeof *extensions) {
-        log_error("the window system needs %u Vulkan extensions, room for %zu", extension_count,
-                  sizeof extensions / sizeof *extensions - 1);
+    const char *extensions[8] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME}; /* which the loader always has */
+    uint32_t extension_count = 1;
+    if (options->instance_extension_count >= sizeof extensions / sizeof *extensions) {
+        log_error("the window system needs %u Vulkan extensions, room for %zu",
+                  options->instance_extension_count, sizeof extensions / sizeof *extensions - 1);
         return STATUS_UNABLE;
     }
-    for (uint32_t i = 0; i < extension_count; ++i)
-        extensions[i] = options->instance_extensions[i];
-    if (validate || vulkan_debug_available())
-        extensions[extension_count++] = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-    if (validate && !has_validation_layer()) {
-        log_error("--validate needs the layer %s (Debian: vulkan-validationlayers)", validation_layer);
-        return STATUS_UNABLE;
-    }
+    for (uint32_t i = 0; i < options->instance_extension_count; ++i)
+        extensions[extension_count++] = options->instance_extensions[i];
     const VkDebugUtilsMessengerCreateInfoEXT messenger_info = {
         .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
         .messageSeverity =
@@ -65,95 +93,92 @@ static enum status create_instance(struct vulkan_context *context, const struct 
         .pfnUserCallback = report_message,
         .pUserData = context,
     };
-    VULKAN_CALL(vkCreateInstance,
-                &(VkInstanceCreateInfo){
-                    .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-                    .pNext = validate ? &(VkValidationFeaturesEXT){
-                        .sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
-                        .pNext = &messenger_info,
-                        .enabledValidationFeatureCount = 1,
-                        .pEnabledValidationFeatures =
-                            &(VkValidationFeatureEnableEXT){VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT},
-                    } : NULL,
-                    .pApplicationInfo =
-                        &(VkApplicationInfo){
-                            .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
-                            .pApplicationName = "vkwhitted",
-                            .apiVersion = VK_API_VERSION_1_2,
-                        },
-                    .enabledLayerCount = validate ? 1 : 0,
-                    .ppEnabledLayerNames = (const char *[]){validation_layer},
-                    .enabledExtensionCount = extension_count,
-                    .ppEnabledExtensionNames = extensions,
+    VkResult result = vkCreateInstance(
+        &(VkInstanceCreateInfo){
+            .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+            .pNext = validate ? &(VkValidationFeaturesEXT){
+                .sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+                .pNext = &messenger_info,
+                .enabledValidationFeatureCount = 1,
+                .pEnabledValidationFeatures =
+                    &(VkValidationFeatureEnableEXT){VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT},
+            } : NULL,
+            .pApplicationInfo =
+                &(VkApplicationInfo){
+                    .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                    .pApplicationName = "vkwhitted",
+                    .apiVersion = VK_API_VERSION_1_2,
                 },
-                NULL, &context->instance);
-    vulkan_debug_load(context);
-    if (validate) {
-        PFN_vkCreateDebugUtilsMessengerEXT create = (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
-            context->instance, "vkCreateDebugUtilsMessengerEXT");
-        VULKAN_CALL(create, context->instance, &messenger_info, NULL, &context->messenger);
-    }
+            .enabledLayerCount = validate ? 1 : 0,
+            .ppEnabledLayerNames = (const char *[]){validation_layer},
+            .enabledExtensionCount = extension_count,
+            .ppEnabledExtensionNames = extensions,
+        },
+        NULL, &context->instance);
+    if (result == VK_ERROR_LAYER_NOT_PRESENT)
+        log_error("--validate needs the layer %s (Debian: vulkan-validationlayers)", validation_layer);
+    else if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
+        report_no_device();
+    else if (result != VK_SUCCESS)
+        log_error("vkCreateInstance: %s", vulkan_result_name(result));
+    if (result != VK_SUCCESS)
+        return STATUS_UNABLE;
+    context->set_object_name = FIND(context, vkSetDebugUtilsObjectNameEXT);
+    context->begin_label = FIND(context, vkCmdBeginDebugUtilsLabelEXT);
+    context->end_label = FIND(context, vkCmdEndDebugUtilsLabelEXT);
+    PFN_vkCreateDebugUtilsMessengerEXT create_messenger = FIND(context, vkCreateDebugUtilsMessengerEXT);
+    if (validate)
+        VULKAN_CALL(create_messenger, context->instance, &messenger_info, NULL, &context->messenger);
     return STATUS_DONE;
 
 error:
     return STATUS_UNABLE;
 }
 
-/* The devices of the instance, to be freed by the caller; NULL (reported) if there are none. */
-static VkPhysicalDevice *list_devices(VkInstance instance, uint32_t *count)
+/* Learns what the device is and has. Higher is better; 0: it cannot be used. */
+static int inspect_device(struct vulkan_context *context, const struct vulkan_options *options,
+                          VkPhysicalDevice device)
 {
-    VkPhysicalDevice *devices = NULL;
-    *count = 0;
-    VULKAN_CALL(vkEnumeratePhysicalDevices, instance, count, NULL);
-    devices = calloc(*count + 1, sizeof *devices);
-    if (!devices || *count == 0) {
-        log_error("no Vulkan device found; Debian's mesa-vulkan-drivers has one that needs no graphics card");
-        goto error;
-    }
-    VULKAN_CALL(vkEnumeratePhysicalDevices, instance, count, devices);
-    return devices;
+    VkPhysicalDeviceSubgroupProperties subgroup = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES,
+        .pNext = &context->driver,
+    };
+    VkPhysicalDeviceProperties2 properties = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+        .pNext = &subgroup,
+    };
+    context->physical_device = device;
+    context->driver = (VkPhysicalDeviceDriverProperties){
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
+    };
+    vkGetPhysicalDeviceProperties2(device, &properties);
+    context->properties = properties.properties;
+    context->has_subgroup_arithmetic = subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+    vkGetPhysicalDeviceMemoryProperties(device, &context->memory);
+    VkPhysicalDeviceFeatures features;
+    vkGetPhysicalDeviceFeatures(device, &features);
+    context->has_float64 = features.shaderFloat64;
 
-error:
-    free(devices);
-    return NULL;
-}
-
-static bool find_compute_queue(const struct vulkan_context *context, VkPhysicalDevice device,
-                               uint32_t *family, uint32_t *timestamp_bits)
-{
     VkQueueFamilyProperties families[16];
     uint32_t count = sizeof families / sizeof *families;
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families);
-    for (uint32_t i = 0; i < count; ++i) {
+    context->queue_family = UINT32_MAX;
+    for (uint32_t i = count; i-- > 0;) {
         if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) &&
-            (!context->can_present || context->can_present(context->instance, device, i))) {
-            *family = i;
-            *timestamp_bits = families[i].timestampValidBits;
-            return true;
+            (!options->can_present || options->can_present(context->instance, device, i))) {
+            context->queue_family = i;
+            context->timestamp_bits = families[i].timestampValidBits;
         }
     }
-    return false;
-}
-
-/* Higher is better; 0: cannot be used. */
-static int score_device(const struct vulkan_context *context, VkPhysicalDevice device,
-                        const VkPhysicalDeviceProperties *properties)
-{
-    uint32_t family, bits;
-    if (properties->apiVersion < VK_API_VERSION_1_2 || !find_compute_queue(context, device, &family, &bits))
+    if (context->properties.apiVersion < VK_API_VERSION_1_2 || context->queue_family == UINT32_MAX)
         return 0;
-    switch (properties->deviceType) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-        return 5;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-        return 4;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-        return 3;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU:
-        return 2;
-    default:
-        return 1;
-    }
+    static const int scores[] = {
+        [VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU] = 5, [VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU] = 4,
+        [VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU] = 3,  [VK_PHYSICAL_DEVICE_TYPE_CPU] = 2,
+        [VK_PHYSICAL_DEVICE_TYPE_OTHER] = 1,
+    };
+    const size_t type = (size_t)context->properties.deviceType;
+    return type < sizeof scores / sizeof *scores ? scores[type] : 1;
 }
 
 static bool device_matches(const char *choice, uint32_t index, const char *name)
@@ -166,25 +191,23 @@ static bool device_matches(const char *choice, uint32_t index, const char *name)
     return strcasestr(name, choice) != NULL;
 }
 
-/* The number of the best device that matches the choice, or count (reported). */
-static uint32_t choose_device(const struct vulkan_context *context, const char *choice,
+/* The number of the best device that matches the options, or count (reported). */
+static uint32_t choose_device(struct vulkan_context *context, const struct vulkan_options *options,
                               const VkPhysicalDevice *devices, uint32_t count)
 {
-    const char *needed = context->can_present ? " that can show pictures in a window" : "";
+    const char *needed = options->can_present ? " that can show pictures in a window" : "";
     uint32_t chosen = count;
     int best_score = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        VkPhysicalDeviceProperties properties;
-        vkGetPhysicalDeviceProperties(devices[i], &properties);
-        int score = score_device(context, devices[i], &properties);
-        if (score > best_score && device_matches(choice, i, properties.deviceName)) {
+        int score = inspect_device(context, options, devices[i]);
+        if (score > best_score && device_matches(options->device, i, context->properties.deviceName)) {
             chosen = i;
             best_score = score;
         }
     }
-    if (chosen == count && choice)
+    if (chosen == count && options->device)
         log_error("--device %s: no usable device of this number or name%s; 'vkwhitted devices' lists them",
-                  choice, needed);
+                  options->device, needed);
     else if (chosen == count)
         log_error(
             "no device offers Vulkan 1.2 and a compute queue%s; 'vkwhitted devices' lists what is there",
@@ -192,40 +215,46 @@ static uint32_t choose_device(const struct vulkan_context *context, const char *
     return chosen;
 }
 
-static enum status open_device(struct vulkan_context *context, const char *choice)
-{
-    uint32_t count;
-    VkPhysicalDevice *devices = list_devices(context->instance, &count);
-    if (!devices)
-        return STATUS_UNABLE;
-    uint32_t chosen = choose_device(context, choice, devices, count);
-    context->physical_device = chosen < count ? devices[chosen] : VK_NULL_HANDLE;
-    free(devices);
-    if (!context->physical_device)
-        return choice ? STATUS_REFUSED : STATUS_UNABLE;
+/* The machine's devices, and the number of the one that the options choose (count, reported: none). */
+struct device_list {
+    VkPhysicalDevice *devices; /* to be freed */
+    uint32_t count, chosen;
+};
 
-    context->driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
-    VkPhysicalDeviceSubgroupProperties subgroup = {
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES,
-        .pNext = &context->driver,
-    };
-    VkPhysicalDeviceProperties2 properties = {
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
-        .pNext = &subgroup,
-    };
-    vkGetPhysicalDeviceProperties2(context->physical_device, &properties);
-    if (!(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT)) {
+/* Makes a context without an open device. On failure (reported) there is none. */
+static enum status create_context(const struct vulkan_options *options, struct vulkan_context **pointer,
+                                  struct device_list *list)
+{
+    struct vulkan_context *context = *pointer = calloc(1, sizeof *context);
+    *list = (struct device_list){0};
+    if (!context)
+        log_error("no memory for the Vulkan context");
+    if (!context || create_instance(context, options) != STATUS_DONE)
+        goto error;
+    VULKAN_CALL(vkEnumeratePhysicalDevices, context->instance, &list->count, NULL);
+    list->devices = calloc(list->count + 1, sizeof *list->devices);
+    if (!list->devices || list->count == 0) {
+        report_no_device();
+        goto error;
+    }
+    VULKAN_CALL(vkEnumeratePhysicalDevices, context->instance, &list->count, list->devices);
+    list->chosen = choose_device(context, options, list->devices, list->count);
+    return STATUS_DONE;
+
+error:
+    free(list->devices);
+    vulkan_context_destroy(pointer);
+    return STATUS_UNABLE;
+}
+
+/* Opens the device that was inspected last. */
+static enum status open_device(struct vulkan_context *context, const struct vulkan_options *options)
+{
+    if (!context->has_subgroup_arithmetic) {
         log_error("%s has no arithmetic over subgroups, which the shader needs",
-                  properties.properties.deviceName);
+                  context->properties.deviceName);
         return STATUS_UNABLE;
     }
-    context->properties = properties.properties;
-    context->driver.pNext = NULL;
-    vkGetPhysicalDeviceMemoryProperties(context->physical_device, &context->memory);
-    find_compute_queue(context, context->physical_device, &context->queue_family, &context->timestamp_bits);
-    VkPhysicalDeviceFeatures available;
-    vkGetPhysicalDeviceFeatures(context->physical_device, &available);
-    context->has_float64 = available.shaderFloat64;
     VULKAN_CALL(vkCreateDevice, context->physical_device,
                 &(VkDeviceCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
@@ -237,9 +266,9 @@ static enum status open_device(struct vulkan_context *context, const char *choic
                             .queueCount = 1,
                             .pQueuePriorities = &(float){1},
                         },
-                    .enabledExtensionCount = context->can_present ? 1 : 0,
+                    .enabledExtensionCount = options->can_present ? 1 : 0,
                     .ppEnabledExtensionNames = (const char *[]){VK_KHR_SWAPCHAIN_EXTENSION_NAME},
-                    .pEnabledFeatures = &(VkPhysicalDeviceFeatures){.shaderFloat64 = available.shaderFloat64},
+                    .pEnabledFeatures = &(VkPhysicalDeviceFeatures){.shaderFloat64 = context->has_float64},
                 },
                 NULL, &context->device);
     vkGetDeviceQueue(context->device, context->queue_family, 0, &context->queue);
@@ -251,20 +280,30 @@ error:
     return STATUS_UNABLE;
 }
 
-enum status vulkan_context_create(const struct vulkan_options *options, struct vulkan_context **context)
+enum status vulkan_context_create(const struct vulkan_options *options, struct vulkan_context **pointer)
 {
-    *context = calloc(1, sizeof **context);
-    if (!*context) {
-        log_error("no memory for the Vulkan context");
-        return STATUS_UNABLE;
-    }
-    (*context)->can_present = options->can_present;
-    enum status status = create_instance(*context, options);
-    if (status == STATUS_DONE)
-        status = open_device(*context, options->device);
+    struct device_list list;
+    enum status status = create_context(options, pointer, &list);
     if (status != STATUS_DONE)
-        vulkan_context_destroy(context);
+        return status;
+    if (list.chosen < list.count) {
+        inspect_device(*pointer, options, list.devices[list.chosen]);
+        status = open_device(*pointer, options);
+    } else {
+        status = options->device ? STATUS_REFUSED : STATUS_UNABLE;
+    }
+    free(list.devices);
+    if (status != STATUS_DONE)
+        vulkan_context_destroy(pointer);
     return status;
+}
+
+static void close_device(struct vulkan_context *context)
+{
+    if (context->device)
+        vkDestroyDevice(context->device, NULL);
+    context->device = NULL;
+    context->arithmetic = (struct arithmetic){0};
 }
 
 enum status vulkan_context_destroy(struct vulkan_context **pointer)
@@ -273,12 +312,9 @@ enum status vulkan_context_destroy(struct vulkan_context **pointer)
     *pointer = NULL;
     if (!context)
         return STATUS_DONE;
-    if (context->device)
-        vkDestroyDevice(context->device, NULL);
+    close_device(context);
     if (context->messenger) {
-        PFN_vkDestroyDebugUtilsMessengerEXT destroy =
-            (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(context->instance,
-                                                                       "vkDestroyDebugUtilsMessengerEXT");
+        PFN_vkDestroyDebugUtilsMessengerEXT destroy = FIND(context, vkDestroyDebugUtilsMessengerEXT);
         destroy(context->instance, context->messenger, NULL);
     }
     if (context->instance)
@@ -290,80 +326,46 @@ enum status vulkan_context_destroy(struct vulkan_context **pointer)
     return messages > 0 ? STATUS_UNABLE : STATUS_DONE;
 }
 
-static const char *type_name(VkPhysicalDeviceType type)
+/* The device that was inspected last. */
+static void print_device(const struct vulkan_context *context, uint32_t index, bool chosen, bool usable)
 {
-    static const char *const names[] = {"other", "integrated GPU", "discrete GPU", "virtual GPU", "CPU"};
-    return (size_t)type < sizeof names / sizeof *names ? names[type] : "unknown";
-}
-
-/* Returns whether it can be used. */
-static bool print_device(const struct vulkan_context *context, VkPhysicalDevice device, uint32_t index,
-                         bool chosen)
-{
-    VkPhysicalDeviceDriverProperties driver = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
-    VkPhysicalDeviceProperties2 properties2 = {
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
-        .pNext = &driver,
-    };
-    vkGetPhysicalDeviceProperties2(device, &properties2);
-    const VkPhysicalDeviceProperties *properties = &properties2.properties;
+    static const char *const types[] = {"other", "integrated GPU", "discrete GPU", "virtual GPU", "CPU"};
+    const VkPhysicalDeviceProperties *properties = &context->properties;
     const VkPhysicalDeviceLimits *limits = &properties->limits;
-    VkPhysicalDeviceFeatures features;
-    vkGetPhysicalDeviceFeatures(device, &features);
     printf("%c %" PRIu32 "  %s\n", chosen ? '*' : ' ', index, properties->deviceName);
-    bool usable = score_device(context, device, properties) > 0;
-    printf("      type            %s\n", type_name(properties->deviceType));
-    printf("      driver          %s %s\n", driver.driverName, driver.driverInfo);
+    printf("      type            %s\n", (size_t)properties->deviceType < sizeof types / sizeof *types
+                                             ? types[properties->deviceType]
+                                             : "unknown");
+    printf("      driver          %s %s\n", context->driver.driverName, context->driver.driverInfo);
     printf("      Vulkan          %u.%u.%u%s\n", VK_API_VERSION_MAJOR(properties->apiVersion),
            VK_API_VERSION_MINOR(properties->apiVersion), VK_API_VERSION_PATCH(properties->apiVersion),
            usable ? "" : " (cannot be used: Vulkan 1.2 and a compute queue are needed)");
-    printf("      fp64            %s\n", features.shaderFloat64 ? "yes" : "no");
+    printf("      fp64            %s\n", context->has_float64 ? "yes" : "no");
     printf("      storage buffer  %" PRIu32 " bytes\n", limits->maxStorageBufferRange);
     printf("      uniform buffer  %" PRIu32 " bytes\n", limits->maxUniformBufferRange);
     printf("      group           %" PRIu32 " x %" PRIu32 " x %" PRIu32 ", %" PRIu32 " invocations\n",
            limits->maxComputeWorkGroupSize[0], limits->maxComputeWorkGroupSize[1],
            limits->maxComputeWorkGroupSize[2], limits->maxComputeWorkGroupInvocations);
-    return usable;
-}
-
-/* Opens the device for it. */
-static enum status print_opened(const struct vulkan_options *options, uint32_t index,
-                                enum status (*print_more)(struct vulkan_context *))
-{
-    char choice[16];
-    struct vulkan_context *context;
-    snprintf(choice, sizeof choice, "%" PRIu32, index);
-    enum status status = vulkan_context_create(
-        &(struct vulkan_options){.device = choice, .validate = options->validate}, &context);
-    if (status != STATUS_DONE)
-        return status;
-    status = print_more(context);
-    enum status closed = vulkan_context_destroy(&context);
-    return status == STATUS_DONE ? closed : status;
 }
 
 enum status vulkan_print_devices(const struct vulkan_options *options,
                                  enum status (*print_more)(struct vulkan_context *))
 {
-    struct vulkan_context *context = calloc(1, sizeof *context);
-    if (!context) {
-        log_error("no memory for the Vulkan context");
-        return STATUS_UNABLE;
+    struct vulkan_context *context;
+    struct device_list list;
+    enum status status = create_context(options, &context, &list);
+    for (uint32_t i = 0; i < list.count && status == STATUS_DONE; ++i) {
+        bool usable = inspect_device(context, options, list.devices[i]) > 0;
+        print_device(context, i, i == list.chosen, usable);
+        if (usable)
+            status = open_device(context, options);
+        if (usable && status == STATUS_DONE)
+            status = print_more(context);
+        close_device(context);
     }
-    enum status status = create_instance(context, options);
-    uint32_t count = 0;
-    VkPhysicalDevice *devices = status == STATUS_DONE ? list_devices(context->instance, &count) : NULL;
-    if (devices) {
-        uint32_t chosen = choose_device(context, options->device, devices, count);
-        for (uint32_t i = 0; i < count && status == STATUS_DONE; ++i)
-            if (print_device(context, devices[i], i, i == chosen))
-                status = print_opened(options, i, print_more);
-        if (chosen == count)
-            status = options->device ? STATUS_REFUSED : STATUS_UNABLE;
-    } else {
-        status = STATUS_UNABLE;
-    }
-    free(devices);
+    if (status == STATUS_DONE && list.chosen == list.count)
+        status = options->device ? STATUS_REFUSED : STATUS_UNABLE;
+    free(list.devices);
     enum status closed = vulkan_context_destroy(&context);
     return status == STATUS_DONE ? closed : status;
 }

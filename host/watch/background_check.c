@@ -39,14 +39,17 @@ static bool compare_band(const struct picture *picture, unsigned y, size_t *diff
     plan.quiet = true;
     if (render_on_cpu(&plan, &reference) != STATUS_DONE)
         return false;
+    const struct image *image = &picture->image;
+    const size_t first = (size_t)y * plan.window.width * 3;
     const struct image band = {.width = plan.window.width,
                                .height = plan.window.height,
-                               .rgb = picture->image.rgb + (size_t)y * plan.window.width * 3};
-    image_compare(&band, &reference.image, NULL, &comparison);
+                               .rgb = image->rgb + first,
+                               .rgb64 = image->rgb64 ? image->rgb64 + first : NULL};
+    enum status status = image_compare(&band, &reference.image, NULL, &comparison);
     *differing += comparison.differing;
     *rays += reference.rays.primary + reference.rays.secondary + reference.rays.shadow;
     image_destroy(&reference.image);
-    return true;
+    return status == STATUS_DONE || status == STATUS_DIFFERS;
 }
 
 static void compare(struct background_check *check, struct picture *picture)
@@ -62,12 +65,13 @@ static void compare(struct background_check *check, struct picture *picture)
     if (!check->talkative)
         return;
     size_t pixels = (size_t)image->width * image->height;
+    double milliseconds = clock_ms() - start;
     if (differing == 0)
         log_notice("picture %u: agrees with the reference in all %zu pixels (after %.0f ms)", picture->number,
-                   pixels, clock_ms() - start);
+                   pixels, milliseconds);
     else
         log_notice("picture %u: %zu of %zu pixels differ from the reference (after %.0f ms)", picture->number,
-                   differing, pixels, clock_ms() - start);
+                   differing, pixels, milliseconds);
 }
 
 static void *run(void *argument)

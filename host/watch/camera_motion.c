@@ -28,19 +28,6 @@ static struct dvec3 view_offset(const struct scene_camera *camera)
     return dvec3_subtract(dvec3_of(camera->position), dvec3_of(camera->look_at));
 }
 
-/* The angle between up and the direction from look_at to the camera. */
-static double polar_angle(struct dvec3 outward, struct dvec3 up)
-{
-    return atan2(dvec3_length(dvec3_cross(outward, up)), dvec3_dot(outward, up));
-}
-
-/* The least distance to look_at that coordinates of this size resolve. */
-static double least_distance(const struct scene_camera *camera)
-{
-    double size = fmax(dvec3_largest(dvec3_of(camera->position)), dvec3_largest(dvec3_of(camera->look_at)));
-    return fmax(LEAST_DISTANCE, LEAST_RESOLVED * size);
-}
-
 /* Not so for a camera with a NaN. */
 static bool is_valid(const struct scene_camera *camera)
 {
@@ -48,7 +35,8 @@ static bool is_valid(const struct scene_camera *camera)
         if (!(fabs(camera->position[i]) <= MOST_COORDINATE && fabs(camera->look_at[i]) <= MOST_COORDINATE))
             return false;
     struct dvec3 offset = view_offset(camera);
-    if (!(dvec3_length(offset) >= least_distance(camera)))
+    double size = fmax(dvec3_largest(dvec3_of(camera->position)), dvec3_largest(dvec3_of(camera->look_at)));
+    if (!(dvec3_length(offset) >= fmax(LEAST_DISTANCE, LEAST_RESOLVED * size)))
         return false;
     struct dvec3 sine = dvec3_cross(dvec3_unit(offset), dvec3_unit(dvec3_of(camera->up)));
     return dvec3_length(sine) >= LEAST_SINE;
@@ -70,8 +58,9 @@ void camera_orbit(struct scene_camera *camera, double x, double y)
     struct dvec3 right = dvec3_unit(dvec3_cross(up, outward)), ahead = dvec3_cross(right, up);
 
     /* A camera that the scene file puts nearer to a pole is not pushed away from it. */
-    double polar = polar_angle(outward, up), least = fmin(polar, LEAST_POLE_DISTANCE),
-           most = fmax(polar, pi - LEAST_POLE_DISTANCE), turned = polar - pi * y;
+    double polar = atan2(dvec3_length(dvec3_cross(outward, up)), dvec3_dot(outward, up)),
+           least = fmin(polar, LEAST_POLE_DISTANCE), most = fmax(polar, pi - LEAST_POLE_DISTANCE),
+           turned = polar - pi * y;
     double new_polar = turned < least ? least : turned > most ? most : turned;
     double azimuth = pi * fmod(-x, 2);
     struct dvec3 level = dvec3_add(dvec3_scale(cos(azimuth), ahead), dvec3_scale(sin(azimuth), right));

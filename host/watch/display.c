@@ -1,15 +1,17 @@
 #include "watch/display.h"
 
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define GLFW_INCLUDE_NONE
+#define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
 
 #include "base/clock.h"
 #include "base/interrupt.h"
 #include "watch/swapchain.h"
-#include "watch/window_system.h"
 
 /* Of one key press: picture heights, zoom steps. */
 static const double arrow_step = 1.0 / 32, zoom_key_step = 1;
@@ -17,32 +19,22 @@ static const double arrow_step = 1.0 / 32, zoom_key_step = 1;
 struct display {
     GLFWwindow *window;
     struct swapchain *swapchain;
-    struct rgba_picture picture; /* rgba is NULL before the first */
+    VkExtent2D picture;          /* its size; 0 before the first */
     bool stale;                  /* the window does not show the picture as it should */
     bool dragging, panning;      /* the left button is down; Shift was, when it went down */
     double pointer_x, pointer_y; /* where it was last */
-    bool loss_reported;
     struct display_input input;
+    bool has_input;
+    char title[1024];
 };
-
-static bool has_input(const struct display_input *input)
-{
-    return input->closed || input->resized || input->orbit_x != 0 || input->orbit_y != 0 ||
-           input->pan_x != 0 || input->pan_y != 0 || input->zoom != 0 || input->reset ||
-           input->print_camera || input->save || input->difference;
-}
 
 /* x and y in picture heights. */
 static void drag(struct display *display, bool pan, double x, double y)
 {
     struct display_input *input = &display->input;
+    display->has_input = true;
     *(pan ? &input->pan_x : &input->orbit_x) += x;
     *(pan ? &input->pan_y : &input->orbit_y) += y;
-}
-
-static void on_close(GLFWwindow *window)
-{
-    ((struct display *)glfwGetWindowUserPointer(window))->input.closed = true;
 }
 
 static void on_framebuffer_size(GLFWwindow *window, int width, int height)
@@ -50,7 +42,6 @@ static void on_framebuffer_size(GLFWwindow *window, int width, int height)
     struct display *display = glfwGetWindowUserPointer(window);
     (void)width;
     (void)height;
-    display->input.resized = true;
     display->stale = true;
 }
 
@@ -73,8 +64,9 @@ static void on_pointer(GLFWwindow *window, double x, double y)
     struct display *display = glfwGetWindowUserPointer(window);
     int width, height;
     glfwGetWindowSize(window, &width, &height);
-    if (display->dragging && display->picture.rgba && width > 0 && height > 0) {
-        unsigned shown_height = fit_picture(&display->picture, (unsigned)width, (unsigned)height).height;
+    if (display->dragging && display->picture.width > 0 && width > 0 && height > 0) {
+        unsigned shown_height =
+            fit_picture(display->picture, (VkExtent2D){(uint32_t)width, (uint32_t)height}).extent.height;
         drag(display, display->panning, (x - display->pointer_x) / shown_height,
              (y - display->pointer_y) / shown_height);
     }
@@ -85,208 +77,116 @@ static void on_pointer(GLFWwindow *window, double x, double y)
 static void on_scroll(GLFWwindow *window, double x, double y)
 {
     (void)x;
-    ((struct display *)glfwGetWindowUserPointer(window))->input.zoom += y;
+    struct display *display = glfwGetWindowUserPointer(window);
+    display->input.zoom += y;
+    display->has_input = true;
 }
 
-/* The character on a key, or where that is none of ASCII, the one that a US keyboard has there; 0: none. */
-static char key_character(int key, int scancode)
+/* The character on a key, or where that is none of ASCII, GLFW's number for it: of a letter key, the letter
+ * that a US keyboard has there. */
+static int key_code(int key, int scancode)
 {
     const char *name = glfwGetKeyName(key, scancode);
-    if (name && name[0] > 0 && name[1] == '\0')
-        return name[0] >= 'A' && name[0] <= 'Z' ? (char)(name[0] - 'A' + 'a') : name[0];
-    return key >= GLFW_KEY_A && key <= GLFW_KEY_Z ? (char)(key - GLFW_KEY_A + 'a') : '\0';
-}
-
-static void on_character_key(struct display_input *input, char character, bool repeated)
-{
-    switch (character) {
-    case '+':
-    case '=': /* + with Shift on many keyboards */
-        input->zoom += zoom_key_step;
-        break;
-    case '-':
-        input->zoom -= zoom_key_step;
-        break;
-    case 'r':
-        input->reset = true;
-        break;
-    case 'p':
-        input->print_camera = input->print_camera || !repeated;
-        break;
-    case 's':
-        input->save = input->save || !repeated;
-        break;
-    case 'd':
-        input->difference = input->difference != !repeated; /* twice is back again */
-        break;
-    default:
-        break;
-    }
+    int code = name && name[0] > 0 && name[1] == 0 ? name[0] : key;
+    return code >= 'A' && code <= 'Z' ? code - 'A' + 'a' : code;
 }
 
 static void on_key(GLFWwindow *window, int key, int scancode, int action, int mods)
 {
     struct display *display = glfwGetWindowUserPointer(window);
-    bool pan = mods & GLFW_MOD_SHIFT;
+    struct display_input *input = &display->input;
+    bool pan = mods & GLFW_MOD_SHIFT, pressed = action == GLFW_PRESS;
     if (action == GLFW_RELEASE || (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)))
         return;
-    switch (key) {
-    case GLFW_KEY_ESCAPE:
-        display->input.closed = true;
-        break;
-    case GLFW_KEY_LEFT:
-        drag(display, pan, -arrow_step, 0);
-        break;
-    case GLFW_KEY_RIGHT:
-        drag(display, pan, arrow_step, 0);
-        break;
-    case GLFW_KEY_UP:
-        drag(display, pan, 0, -arrow_step);
-        break;
-    case GLFW_KEY_DOWN:
-        drag(display, pan, 0, arrow_step);
-        break;
-    default:
-        on_character_key(&display->input, key_character(key, scancode), action == GLFW_REPEAT);
-        break;
-    }
+    int code = key_code(key, scancode);
+    display->has_input = true;
+    if (code == GLFW_KEY_LEFT || code == GLFW_KEY_RIGHT)
+        drag(display, pan, code == GLFW_KEY_LEFT ? -arrow_step : arrow_step, 0);
+    if (code == GLFW_KEY_UP || code == GLFW_KEY_DOWN)
+        drag(display, pan, 0, code == GLFW_KEY_UP ? -arrow_step : arrow_step);
+    if (code == '-' || code == '+' || code == '=') /* + with Shift on many keyboards */
+        input->zoom += code == '-' ? -zoom_key_step : zoom_key_step;
+    if (code == GLFW_KEY_ESCAPE)
+        glfwSetWindowShouldClose(window, GLFW_TRUE);
+    input->reset |= code == 'r';
+    input->print_camera |= code == 'p' && pressed;
+    input->save |= code == 's' && pressed;
+    input->difference ^= code == 'd' && pressed; /* twice is back again */
 }
 
-struct window_request {
-    struct display *display;
-    int width, height;
-};
-
-static void create_window_call(void *argument)
+static const char *glfw_reason(void)
 {
-    struct window_request *request = argument;
-    struct display *display = request->display;
-    glfwDefaultWindowHints();
+    const char *reason;
+    return glfwGetError(&reason) == GLFW_NO_ERROR ? "GLFW has no reason" : reason;
+}
+
+/* Whether the family of queues can scale a picture and show it. */
+static int can_present(VkInstance instance, VkPhysicalDevice device, uint32_t family)
+{
+    VkQueueFamilyProperties families[16];
+    uint32_t count = sizeof families / sizeof *families;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families);
+    return family < count && (families[family].queueFlags & VK_QUEUE_GRAPHICS_BIT) &&
+           glfwGetPhysicalDevicePresentationSupport(instance, device, family);
+}
+
+enum status display_connect(struct vulkan_options *vulkan)
+{
+    if (!glfwInit()) {
+        log_error("cannot open a window: %s", glfw_reason());
+        return STATUS_UNABLE;
+    }
+    signal(SIGPIPE, SIG_IGN); /* it would keep Xlib from saying that the display has gone away */
+    vulkan->instance_extensions = glfwGetRequiredInstanceExtensions(&vulkan->instance_extension_count);
+    vulkan->can_present = can_present;
+    if (vulkan->instance_extensions)
+        return STATUS_DONE;
+    log_error("no Vulkan driver here can show pictures in a window");
+    glfwTerminate();
+    return STATUS_UNABLE;
+}
+
+void display_disconnect(void)
+{
+    glfwTerminate();
+}
+
+static enum status create_window(struct display *display, unsigned width, unsigned height)
+{
+    const unsigned most = 16384; /* X11's sizes have 16 bits with sign */
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "vkwhitted");
     glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "vkwhitted");
-    display->window = glfwCreateWindow(request->width, request->height, "vkwhitted", NULL, NULL);
-    if (!display->window)
-        return;
+    display->window = glfwCreateWindow((int)(width < most ? width : most),
+                                       (int)(height < most ? height : most), "vkwhitted", NULL, NULL);
+    if (!display->window) {
+        log_error("cannot open a window: %s", glfw_reason());
+        return STATUS_UNABLE;
+    }
     glfwSetWindowUserPointer(display->window, display);
-    glfwSetWindowCloseCallback(display->window, on_close);
     glfwSetFramebufferSizeCallback(display->window, on_framebuffer_size);
     glfwSetWindowRefreshCallback(display->window, on_refresh);
     glfwSetMouseButtonCallback(display->window, on_button);
     glfwSetCursorPosCallback(display->window, on_pointer);
     glfwSetScrollCallback(display->window, on_scroll);
     glfwSetKeyCallback(display->window, on_key);
-}
-
-static enum status create_window(struct display *display, unsigned width, unsigned height)
-{
-    const unsigned most = 16384; /* X11's sizes have 16 bits with sign */
-    struct window_request request = {display, (int)(width < most ? width : most),
-                                     (int)(height < most ? height : most)};
-    if (window_system_call(create_window_call, &request) && !display->window) {
-        const char *reason;
-        log_error("cannot open a window: %s",
-                  glfwGetError(&reason) == GLFW_NO_ERROR ? "GLFW has no reason" : reason);
-    }
-    return display->window ? STATUS_DONE : STATUS_UNABLE;
-}
-
-/* Passes a status on, and reports a display gone away, once. */
-static enum status check_loss(struct display *display, enum status status)
-{
-    if (!window_system_lost())
-        return status;
-    if (!display->loss_reported)
-        log_error("the display has gone away");
-    display->loss_reported = true;
-    return STATUS_UNABLE;
+    return STATUS_DONE;
 }
 
 enum status display_create(struct vulkan_context *context, unsigned width, unsigned height,
-                           struct display **display)
+                           struct display **pointer)
 {
-    *display = calloc(1, sizeof **display);
-    if (!*display) {
+    struct display *display = *pointer = calloc(1, sizeof *display);
+    if (!display) {
         log_error("no memory for the window");
         return STATUS_UNABLE;
     }
-    enum status status = create_window(*display, width, height);
+    enum status status = create_window(display, width, height);
     if (status == STATUS_DONE)
-        status = swapchain_create(context, (*display)->window, &(*display)->swapchain);
-    status = check_loss(*display, status);
+        status = swapchain_create(context, display->window, &display->swapchain);
     if (status != STATUS_DONE)
-        display_destroy(display);
+        display_destroy(pointer);
     return status;
-}
-
-/* Brings the window up to date. */
-static enum status paint(struct display *display)
-{
-    enum status status = STATUS_DONE;
-    bool shown = false;
-    if (display->stale && display->picture.rgba)
-        status = swapchain_show(display->swapchain, &display->picture, &shown);
-    display->stale = display->stale && !shown;
-    return check_loss(display, status);
-}
-
-enum status display_show(struct display *display, const unsigned char *rgba, unsigned width, unsigned height)
-{
-    size_t size = 4 * (size_t)width * height;
-    unsigned char *copy = realloc(display->picture.rgba, size);
-    if (!copy) {
-        log_error("no memory for a picture of %u x %u in the window", width, height);
-        return STATUS_UNABLE;
-    }
-    memcpy(copy, rgba, size);
-    display->picture = (struct rgba_picture){width, height, copy};
-    display->stale = true;
-    return paint(display);
-}
-
-struct title_request {
-    GLFWwindow *window;
-    const char *title;
-};
-
-static void set_title(void *argument)
-{
-    const struct title_request *request = argument;
-    glfwSetWindowTitle(request->window, request->title);
-}
-
-void display_set_title(struct display *display, const char *title)
-{
-    window_system_call(set_title, &(struct title_request){display->window, title});
-}
-
-enum status display_wait(struct display *display, double seconds, struct display_input *input)
-{
-    const double end_ms = clock_ms() + seconds * 1e3;
-    enum status status;
-    bool woken = false, over;
-    do {
-        window_system_poll();
-        status = paint(display);
-        double left_ms = end_ms - clock_ms();
-        over = woken || status != STATUS_DONE || left_ms <= 0 || has_input(&display->input) ||
-               interrupt_requested();
-        if (!over)
-            woken = window_system_wait(left_ms / 1e3);
-    } while (!over);
-    *input = display->input;
-    display->input = (struct display_input){0};
-    return status;
-}
-
-void display_wake(void)
-{
-    window_system_wake();
-}
-
-static void destroy_window(void *window)
-{
-    glfwDestroyWindow(window);
 }
 
 void display_destroy(struct display **pointer)
@@ -297,7 +197,53 @@ void display_destroy(struct display **pointer)
         return;
     swapchain_destroy(&display->swapchain);
     if (display->window)
-        window_system_call(destroy_window, display->window);
-    free(display->picture.rgba);
+        glfwDestroyWindow(display->window);
     free(display);
+}
+
+unsigned char *display_picture(struct display *display, unsigned width, unsigned height)
+{
+    unsigned char *rgba = swapchain_picture(display->swapchain, width, height);
+    display->picture = rgba ? (VkExtent2D){width, height} : (VkExtent2D){0};
+    display->stale = true;
+    return rgba;
+}
+
+enum status display_paint(struct display *display)
+{
+    bool shown;
+    enum status status = swapchain_show(display->swapchain, &shown);
+    display->stale = !shown;
+    return status;
+}
+
+enum status display_wait(struct display *display, double seconds, struct display_input *input)
+{
+    const double longest_wait = 0.1; /* the driver may have read from the connection what GLFW waits for */
+    const double end_ms = clock_ms() + seconds * 1e3;
+    enum status status = STATUS_DONE;
+    for (;;) {
+        glfwPollEvents();
+        if (display->stale && display->picture.width > 0)
+            status = display_paint(display);
+        double left = (end_ms - clock_ms()) / 1e3;
+        display->input.closed = glfwWindowShouldClose(display->window);
+        if (status != STATUS_DONE || left <= 0 || display->has_input || display->input.closed ||
+            interrupt_requested())
+            break;
+        glfwWaitEventsTimeout(fmin(left, longest_wait));
+    }
+    *input = display->input;
+    display->input = (struct display_input){0};
+    display->has_input = false;
+    glfwSetWindowShouldClose(display->window, GLFW_FALSE);
+    return status;
+}
+
+void display_set_title(struct display *display, const char *title)
+{
+    if (strcmp(title, display->title) == 0)
+        return;
+    snprintf(display->title, sizeof display->title, "%s", title);
+    glfwSetWindowTitle(display->window, title);
 }

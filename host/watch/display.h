@@ -3,14 +3,19 @@
 
 #include "vulkan/context.h"
 
-/* A window that shows a picture and takes input. All but display_wake() is for the main thread. */
+/* A window that shows a picture and takes input, by GLFW, on the main thread. */
 struct display;
+
+/* Opens the connection to the window system, and asks for a Vulkan context that shows pictures there.
+ * STATUS_UNABLE (reported) where there is no display. One that goes away later ends the program, as libraries
+ * have it. */
+enum status display_connect(struct vulkan_options *vulkan);
+void display_disconnect(void);
 
 /* What the user has asked for since the last time. Dragged distances are in heights of the shown picture,
  * x to the right and y down, as camera_motion.h has them; zoom is in its steps, positive: nearer. */
 struct display_input {
-    bool closed; /* the window's button, or Escape */
-    bool resized;
+    bool closed;                                /* the window's button, or Escape */
     double orbit_x, orbit_y;                    /* dragging, arrows */
     double pan_x, pan_y;                        /* the same with Shift */
     double zoom;                                /* wheel, + and - */
@@ -21,23 +26,21 @@ struct display_input {
  * NULL. */
 enum status display_create(struct vulkan_context *context, unsigned width, unsigned height,
                            struct display **display);
+void display_destroy(struct display **display);
 
-/* Shows a picture of 8-bit sRGB values (RGBA, row 0 on top), which is copied, in place of the last one:
- * scaled to fit the window, its aspect kept, with black bars. In a window as large as the picture the bytes
- * shown are the bytes given. Uses the context's queue, as does display_wait(). STATUS_UNABLE (reported): the
- * display has gone away or cannot show anything any more. */
-enum status display_show(struct display *display, const unsigned char *rgba, unsigned width, unsigned height);
+/* Where the next picture goes, in place of the last one: 8-bit sRGB values as RGBA, row 0 on top, what A is
+ * does not matter. The memory stays the display's. NULL (reported) without memory, or where the device shows
+ * none as large as that. */
+unsigned char *display_picture(struct display *display, unsigned width, unsigned height);
+
+/* Shows it as swapchain_show() does; display_wait() does so again wherever the window needs it. Both use the
+ * context's queue. STATUS_UNABLE (reported): nothing will be shown any more. */
+enum status display_paint(struct display *display);
+
+/* Waits until there is input, or a signal came, or the time is over. */
+enum status display_wait(struct display *display, double seconds, struct display_input *input);
 
 /* UTF-8. */
 void display_set_title(struct display *display, const char *title);
-
-/* Waits until there is input, display_wake() or a signal (progress.h) came, or the time is over. The picture
- * follows the window's size meanwhile. STATUS_UNABLE as for display_show(). */
-enum status display_wait(struct display *display, double seconds, struct display_input *input);
-
-/* Ends a running display_wait(), or the next one. For any thread, while there is a context that presents. */
-void display_wake(void);
-
-void display_destroy(struct display **display);
 
 #endif

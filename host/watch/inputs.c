@@ -1,122 +1,218 @@
 #include "watch/inputs.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <fts.h>
+#include <limits.h>
 #include <math.h>
+#include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "base/clock.h"
 #include "base/text_file.h"
 
-enum {
-    MOST_SCENE_BYTES = 16 << 20, /* as scene_read() */
-    MOST_READINGS = 4,           /* of files that go on changing */
+/* How long, in milliseconds, a file that has been changed must stay as it is: it is known that nobody has it
+ * open for writing; it is not known; somebody has. */
+static const double closed_ms = 20, unknown_ms = 200, open_ms = 1000;
+
+/* How old a change must be for the next one to get another time: most file systems count in 10 ms or less,
+ * some in 2 s. */
+static const double fine_ms = 20, coarse_ms = 2000;
+
+static const double recent_ms = 2000; /* older changes have been settled already */
+
+enum { MOST_FOLDERS_DEEP = 3, MOST_SCENE_BYTES = 16 << 20 /* as scene_read() */ };
+
+/* A look at files. */
+struct look {
+    struct inputs_state state;
+    struct timespec now, newest; /* newest: when one was changed or renamed last */
+    double settling_ms;          /* how long they must stay as they are */
 };
 
-static const double look_again_ms = 1000;
-
-enum status watch_inputs_create(const char *scene_path, const char *shader_path, struct watch_inputs *inputs)
+static double milliseconds_between(struct timespec from, struct timespec to)
 {
-    *inputs = (struct watch_inputs){.scene_path = scene_path, .shader_path = shader_path};
-    return file_watch_create(&inputs->files);
+    return (double)(to.tv_sec - from.tv_sec) * 1e3 + (double)(to.tv_nsec - from.tv_nsec) * 1e-6;
 }
 
-static void forget(struct watch_inputs *inputs)
+/* FNV-1a. */
+static uint64_t hash(uint64_t so_far, const void *bytes, size_t size)
 {
-    free(inputs->scene);
-    shader_source_destroy(&inputs->shader);
+    for (const unsigned char *at = bytes; size > 0; ++at, --size)
+        so_far = (so_far ^ *at) * UINT64_C(0x100000001b3);
+    return so_far;
 }
 
-void watch_inputs_destroy(struct watch_inputs *inputs)
+/* A lease for reading is given where nobody has the file open for writing. */
+static double settling_time(const char *path)
 {
-    forget(inputs);
-    file_watch_destroy(&inputs->files);
-    *inputs = (struct watch_inputs){0};
+    int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    double time_ms = unknown_ms;
+    if (file < 0)
+        return time_ms;
+    if (fcntl(file, F_SETLEASE, F_RDLCK) == 0)
+        time_ms = closed_ms;
+    else if (errno == EAGAIN)
+        time_ms = open_ms;
+    close(file); /* and the lease ends */
+    return time_ms;
 }
 
-static enum status read_files(struct watch_inputs *inputs)
+/* A number for the file and its state. */
+static uint64_t look_at(struct look *look, const char *path)
 {
-    errno = 0;
-    inputs->scene = file_text_read(inputs->scene_path, MOST_SCENE_BYTES, &inputs->scene_length);
-    inputs->scene_error = inputs->scene ? 0 : errno;
-    return shader_source_read(inputs->shader_path, &inputs->shader);
-}
-
-/* Watches what has been read. Returns whether it was not all watched while it was read. */
-static bool watch_files(struct watch_inputs *inputs)
-{
-    const struct shader_source *shader = &inputs->shader;
-    char **paths = calloc(shader->file_count + 1, sizeof *paths);
-    if (!paths)
-        return false;
-    paths[0] = (char *)inputs->scene_path;
-    memcpy(paths + 1, shader->files, shader->file_count * sizeof *paths);
-    bool added = file_watch_set(inputs->files, paths, shader->file_count + 1);
-    free(paths);
-    return added;
-}
-
-static bool same_scene(const struct watch_inputs *a, const struct watch_inputs *b)
-{
-    if (!a->scene || !b->scene)
-        return !a->scene && !b->scene && a->scene_error == b->scene_error;
-    return a->scene_length == b->scene_length && memcmp(a->scene, b->scene, a->scene_length) == 0;
-}
-
-static bool same_shader(const struct shader_source *a, const struct shader_source *b)
-{
-    return a->text && b->text && a->length == b->length && memcmp(a->text, b->text, a->length) == 0;
-}
-
-/* When a file that is there was last changed or renamed, by clock_ms(), to the few milliseconds that file
- * systems resolve. */
-static double newest_change_ms(const struct watch_inputs *inputs)
-{
-    struct timespec now;
     struct stat about;
-    double age_ms = INFINITY;
-    clock_gettime(CLOCK_REALTIME, &now);
-    for (size_t i = 0; i <= inputs->shader.file_count; ++i) {
-        const char *path = i < inputs->shader.file_count ? inputs->shader.files[i] : inputs->scene_path;
-        if (stat(path, &about) == 0)
-            age_ms = fmin(age_ms, (double)(now.tv_sec - about.st_ctim.tv_sec) * 1e3 +
-                                      (double)(now.tv_nsec - about.st_ctim.tv_nsec) * 1e-6);
+    uint64_t number = hash(UINT64_C(0xcbf29ce484222325), path, strlen(path));
+    if (stat(path, &about) != 0) {
+        look->settling_ms = fmax(look->settling_ms, unknown_ms);
+        return number;
     }
-    return clock_ms() - fmax(age_ms, 0);
+    const int64_t facts[] = {(int64_t)about.st_dev,          (int64_t)about.st_ino,
+                             (int64_t)about.st_size,         (int64_t)about.st_mtim.tv_sec,
+                             (int64_t)about.st_mtim.tv_nsec, (int64_t)about.st_ctim.tv_sec,
+                             (int64_t)about.st_ctim.tv_nsec};
+    if (milliseconds_between(look->newest, about.st_ctim) > 0)
+        look->newest = about.st_ctim;
+    if (milliseconds_between(about.st_ctim, look->now) < recent_ms)
+        look->settling_ms = fmax(look->settling_ms, settling_time(path));
+    return hash(number, facts, sizeof facts);
 }
 
-/* When what has changed was saved. Where no file is newer than the last look, one has gone, or a link leads
- * elsewhere. */
-static double saved_ms(const struct watch_inputs *inputs, double last_look_ms)
+static bool is_shader_part(const FTSENT *entry)
 {
-    double changed_ms = newest_change_ms(inputs), event_ms = file_watch_last_event_ms(inputs->files);
-    return changed_ms > last_look_ms ? changed_ms : event_ms > last_look_ms ? event_ms : clock_ms();
+    const char *suffix = strrchr(entry->fts_name, '.');
+    return entry->fts_info == FTS_F && suffix &&
+           (strcmp(suffix, ".comp") == 0 || strcmp(suffix, ".glsl") == 0 || strcmp(suffix, ".h") == 0);
 }
 
-enum status watch_inputs_read(struct watch_inputs *inputs, bool happened, struct watch_changes *changes)
+static uint64_t look_at_folder(struct look *look, char *folder)
 {
-    *changes = (struct watch_changes){0};
-    if (!happened && inputs->shader.text && clock_ms() - inputs->last_look_ms < look_again_ms)
+    uint64_t sum = 0; /* so that their order is all the same */
+    FTS *tree = fts_open((char *const[]){folder, NULL}, FTS_LOGICAL | FTS_NOCHDIR, NULL);
+    for (FTSENT *entry; tree && (entry = fts_read(tree));) {
+        bool hidden = entry->fts_level > 0 && entry->fts_name[0] == '.';
+        if (entry->fts_info == FTS_D && (hidden || entry->fts_level > MOST_FOLDERS_DEEP))
+            fts_set(tree, entry, FTS_SKIP);
+        else if (!hidden && is_shader_part(entry))
+            sum += look_at(look, entry->fts_path);
+    }
+    if (tree)
+        fts_close(tree);
+    return sum;
+}
+
+static struct look look(const struct inputs *inputs)
+{
+    struct look look = {.settling_ms = closed_ms};
+    clock_gettime(CLOCK_REALTIME, &look.now);
+    look.state.scene = look_at(&look, inputs->scene_path);
+    look.state.shader = inputs->shader_broken ? look_at_folder(&look, inputs->shader_folder) : 0;
+    for (const char *path = inputs->shader_files; path && *path; path += strlen(path) + 1)
+        look.state.shader += look_at(&look, path);
+    return look;
+}
+
+static bool same_state(struct inputs_state a, struct inputs_state b)
+{
+    return a.scene == b.scene && a.shader == b.shader;
+}
+
+bool inputs_take(struct inputs *inputs, double *saved_ms)
+{
+    const struct look found = look(inputs);
+    double now_ms = clock_ms(), age_ms = milliseconds_between(found.newest, found.now);
+    if (!same_state(found.state, inputs->seen)) {
+        /* where no file is newer than the last look, one has gone, or a link leads elsewhere */
+        inputs->saved_ms = now_ms - age_ms > inputs->last_look_ms ? now_ms - fmax(age_ms, 0) : now_ms;
+        inputs->seen = found.state;
+        inputs->unchanged_since_ms = now_ms;
+    }
+    inputs->last_look_ms = now_ms;
+    double unchanged_ms = now_ms - inputs->unchanged_since_ms;
+    bool dated = age_ms >= (found.newest.tv_nsec == 0 ? coarse_ms : fine_ms) ||
+                 unchanged_ms >= coarse_ms; /* the file system's clock is ahead */
+    if (same_state(found.state, inputs->taken) || unchanged_ms < found.settling_ms || !dated)
+        return false;
+    inputs->taken = found.state;
+    *saved_ms = inputs->saved_ms;
+    return true;
+}
+
+bool inputs_hold(const struct inputs *inputs)
+{
+    return same_state(look(inputs).state, inputs->taken);
+}
+
+bool inputs_follow(struct inputs *inputs, char **shader_files, bool broken)
+{
+    struct inputs old = *inputs;
+    inputs->shader_broken = broken;
+    inputs->shader_files = *shader_files;
+    *shader_files = NULL;
+    const struct look followed = look(inputs); /* before the question whether the old ones still hold */
+    double age_ms = milliseconds_between(followed.newest, followed.now);
+    bool new_one_changed = age_ms >= 0 && age_ms < clock_ms() - inputs->last_look_ms + fine_ms / 2;
+    bool hold = inputs_hold(&old) && !new_one_changed;
+    free(old.shader_files);
+    inputs->seen.shader = followed.state.shader;
+    inputs->taken = hold ? inputs->seen : (struct inputs_state){0};
+    return hold;
+}
+
+char *inputs_read_scene(const struct inputs *inputs, size_t *length)
+{
+    char *text = text_file_read(inputs->scene_path, true, MOST_SCENE_BYTES, length);
+    if (!text)
+        fprintf(stderr, "%s: error: %s\n", inputs->scene_path, strerror(errno));
+    return text;
+}
+
+/* The folder that was installed with the program; false where that is not known, or is not there. */
+static bool find_installed(char path[PATH_MAX])
+{
+    char program[PATH_MAX], beside[2 * PATH_MAX];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[length > 0 ? length : 0] = 0;
+    char *slash = strrchr(program, '/');
+    snprintf(beside, sizeof beside, "%.*s/" SHADERS_FROM_BIN, slash ? (int)(slash - program) : 0, program);
+    return slash && realpath(beside, path);
+}
+
+enum status inputs_create(const char *scene_path, const char *shader_folder, struct inputs *inputs)
+{
+    char installed[PATH_MAX];
+    if (!shader_folder)
+        shader_folder = find_installed(installed) ? installed : SHADERS_OF_SOURCE;
+    *inputs = (struct inputs){.scene_path = scene_path, .shader_broken = true, .last_look_ms = clock_ms()};
+    inputs->shader_folder = strdup(shader_folder);
+    if (!inputs->shader_folder || asprintf(&inputs->shader_path, "%s/whitted.comp", shader_folder) < 0) {
+        inputs->shader_path = NULL;
+        log_error("no memory for a path");
+        inputs_destroy(inputs);
+        return STATUS_UNABLE;
+    }
+    signal(SIGIO, SIG_IGN); /* comes where somebody opens a file for writing while we hold a lease */
+    size_t length;
+    char *scene = inputs_read_scene(inputs, &length);
+    bool found = scene && access(inputs->shader_path, R_OK) == 0;
+    if (scene && !found)
+        log_error("%s: %s; --shaders names the folder of whitted.comp", inputs->shader_path, strerror(errno));
+    free(scene);
+    if (found)
         return STATUS_DONE;
-    struct watch_inputs before = *inputs;
-    enum status status = STATUS_DONE;
-    inputs->scene = NULL;
-    inputs->shader = (struct shader_source){0};
-    for (int i = 0; i < MOST_READINGS && status == STATUS_DONE; ++i) {
-        if (happened)
-            file_watch_settle(inputs->files);
-        forget(inputs);
-        status = read_files(inputs);
-        happened = file_watch_wait(inputs->files, 0);
-        if (status == STATUS_DONE && !watch_files(inputs) && !happened)
-            break;
-    }
-    inputs->last_look_ms = clock_ms();
-    changes->scene = !before.shader.text || !same_scene(inputs, &before);
-    changes->shader = !same_shader(&inputs->shader, &before.shader);
-    changes->saved_ms = saved_ms(inputs, before.last_look_ms);
-    forget(&before);
-    return status;
+    inputs_destroy(inputs);
+    return STATUS_REFUSED;
+}
+
+void inputs_destroy(struct inputs *inputs)
+{
+    free(inputs->shader_folder);
+    free(inputs->shader_path);
+    free(inputs->shader_files);
+    *inputs = (struct inputs){0};
 }

@@ -1,31 +1,48 @@
 #ifndef VKWHITTED_WATCH_INPUTS_H
 #define VKWHITTED_WATCH_INPUTS_H
 
-#include "watch/file_watch.h"
-#include "watch/shader_source.h"
+#include <stddef.h>
+#include <stdint.h>
 
-/* The files that a picture is made of, as they were when last read. */
-struct watch_inputs {
-    const char *scene_path, *shader_path;
-    char *scene; /* the scene file's text; NULL: it cannot be read */
-    size_t scene_length;
-    int scene_error; /* errno then */
-    struct shader_source shader;
-    struct file_watch *files;
-    double last_look_ms;
+#include "base/status.h"
+
+/* The state of files, as stat() tells it, in a number: another one, other files. */
+struct inputs_state {
+    uint64_t scene, shader;
 };
 
-enum status watch_inputs_create(const char *scene_path, const char *shader_path, struct watch_inputs *inputs);
-void watch_inputs_destroy(struct watch_inputs *inputs);
-
-struct watch_changes {
-    bool scene, shader;
-    double saved_ms; /* when, by clock_ms() */
+/* The files that a picture is made of: the scene, and what the shader was compiled from last; as long as that
+ * does not compile also what else of *.comp, *.glsl and *.h lies in its folder, for that may be what mends
+ * it. */
+struct inputs {
+    const char *scene_path; /* the caller's */
+    char *shader_folder, *shader_path;
+    char *shader_files; /* as struct compilation has them; NULL: not compiled yet */
+    bool shader_broken;
+    struct inputs_state taken, seen; /* when they were read last; when they were last looked at */
+    double last_look_ms, unchanged_since_ms, saved_ms;
 };
 
-/* Reads the files again if something has happened to them, once their writing has come to an end, or if they
- * have not been looked at for a second: inotify does not tell everything. Says which have another content
- * than before. */
-enum status watch_inputs_read(struct watch_inputs *inputs, bool happened, struct watch_changes *changes);
+/* The shader is whitted.comp in that folder, or where that is NULL, in the one that was installed with the
+ * program or, for a program that is not installed, in the source tree. A file that is missing now is a
+ * mistake on the command line, not one to be corrected in an editor: STATUS_REFUSED (reported). */
+enum status inputs_create(const char *scene_path, const char *shader_folder, struct inputs *inputs);
+void inputs_destroy(struct inputs *inputs);
+
+/* Looks at the files. Whether they are others than those taken, and whole: nothing has changed for a moment,
+ * nobody is writing as far as can be known, and whatever is written from now on will show. They count as
+ * taken then, and *saved_ms is when they were saved, by clock_ms(). Call it every 20 ms or so. */
+bool inputs_take(struct inputs *inputs, double *saved_ms);
+
+/* The scene file's text, to be freed by the caller; NULL (reported) where it cannot be read. */
+char *inputs_read_scene(const struct inputs *inputs, size_t *length);
+
+/* Whether the files are still those taken: to be asked when they have been read. If not, what has been read
+ * may be half a file, and they will be taken again. */
+bool inputs_hold(const struct inputs *inputs);
+
+/* The same after the shader has been compiled from these files, broken or not. They are followed from now on,
+ * and were the caller's. */
+bool inputs_follow(struct inputs *inputs, char **shader_files, bool broken);
 
 #endif

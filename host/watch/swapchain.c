@@ -1,160 +1,188 @@
 #include "watch/swapchain.h"
 
 #include <stdlib.h>
+#include <strings.h>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 #include "vulkan/buffer.h"
-#include "watch/window_system.h"
+#include "vulkan/command.h"
 
 /* Nanoseconds. An image is free within a frame's time unless the window is hidden. */
-static const uint64_t acquire_timeout = 100000000, fence_timeout = 10000000000;
+static const uint64_t acquire_timeout = 100000000;
+
+enum { MOST_IMAGES = 16 };
 
 struct swapchain {
     struct vulkan_context *context;
     GLFWwindow *window;
     VkSurfaceKHR surface;
+    VkSurfaceFormatKHR format;
     VkSwapchainKHR handle; /* VK_NULL_HANDLE: to be built anew */
     VkExtent2D extent;
-    bool blue_first;
-    uint32_t image_count;
-    VkImage *images;
-    VkSemaphore *drawn; /* one an image */
-    struct vulkan_buffer pixels;
-    VkCommandPool pool;
-    VkCommandBuffer commands;
-    VkFence fence;
+    VkImage images[MOST_IMAGES];
+    struct vulkan_command command; /* its fence tells that an image has been acquired, too */
+
+    VkExtent2D picture_extent;
+    struct vulkan_buffer pixels; /* the picture, as the host writes it */
+    VkImage picture;             /* the same for the device to scale */
+    VkDeviceMemory picture_memory;
 };
 
-static void destroy_images(struct swapchain *swapchain)
+/* Four bytes in this order, without conversion: the bytes are encoded already. */
+static bool is_usable(VkSurfaceFormatKHR format)
 {
-    VkDevice device = swapchain->context->device;
-    vkQueueWaitIdle(swapchain->context->queue);
-    for (uint32_t i = 0; swapchain->drawn && i < swapchain->image_count; ++i)
-        vkDestroySemaphore(device, swapchain->drawn[i], NULL);
-    free(swapchain->drawn);
-    free(swapchain->images);
-    swapchain->drawn = NULL;
-    swapchain->images = NULL;
-    swapchain->image_count = 0;
-    vulkan_buffer_destroy(swapchain->context, &swapchain->pixels);
-    vkDestroySwapchainKHR(device, swapchain->handle, NULL);
-    swapchain->handle = VK_NULL_HANDLE;
+    return format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR &&
+           (format.format == VK_FORMAT_B8G8R8A8_UNORM || format.format == VK_FORMAT_R8G8B8A8_UNORM);
 }
-
-static void destroy_surface(struct swapchain *swapchain)
-{
-    if (swapchain->surface)
-        vkDestroySurfaceKHR(swapchain->context->instance, swapchain->surface, NULL);
-    swapchain->surface = VK_NULL_HANDLE;
-}
-
-/* An error that a display gone away explains is not worth a message of its own. */
-static enum status fail(const char *call, VkResult result)
-{
-    if (!window_system_lost())
-        log_error("%s: %s", call, vulkan_result_name(result));
-    return STATUS_UNABLE;
-}
-
-/* fail() with the name of the call that gave the result. */
-#define FAIL_UNLESS_SUCCESS(function, ...)                                                                   \
-    do {                                                                                                     \
-        VkResult result_ = function(__VA_ARGS__);                                                            \
-        if (result_ != VK_SUCCESS)                                                                           \
-            return fail(#function, result_);                                                                 \
-    } while (0)
 
 static enum status create_surface(struct swapchain *swapchain)
 {
     const struct vulkan_context *context = swapchain->context;
     VkBool32 supported;
-    if (window_system_lost())
-        return STATUS_UNABLE;
-    FAIL_UNLESS_SUCCESS(glfwCreateWindowSurface, context->instance, swapchain->window, NULL,
-                        &swapchain->surface);
-    FAIL_UNLESS_SUCCESS(vkGetPhysicalDeviceSurfaceSupportKHR, context->physical_device, context->queue_family,
-                        swapchain->surface, &supported);
-    if (supported)
-        return STATUS_DONE;
-    log_error("%s cannot show pictures in this window", context->properties.deviceName);
-    return STATUS_UNABLE;
-}
-
-/* Formats whose texels are four bytes in this order; bytes are copied, so that sRGB needs no conversion. */
-static bool is_usable(VkSurfaceFormatKHR format, bool *blue_first)
-{
-    *blue_first = format.format == VK_FORMAT_B8G8R8A8_UNORM || format.format == VK_FORMAT_B8G8R8A8_SRGB;
-    return format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR &&
-           (*blue_first || format.format == VK_FORMAT_R8G8B8A8_UNORM ||
-            format.format == VK_FORMAT_R8G8B8A8_SRGB);
-}
-
-static enum status choose_format(struct swapchain *swapchain, VkSurfaceFormatKHR *format)
-{
     VkSurfaceFormatKHR formats[64];
     uint32_t count = sizeof formats / sizeof *formats;
-    VkResult result = vkGetPhysicalDeviceSurfaceFormatsKHR(swapchain->context->physical_device,
-                                                           swapchain->surface, &count, formats);
-    if (result != VK_SUCCESS && result != VK_INCOMPLETE)
-        return fail("vkGetPhysicalDeviceSurfaceFormatsKHR", result);
-    for (uint32_t i = 0; i < count; ++i) {
-        *format = formats[i];
-        if (is_usable(*format, &swapchain->blue_first))
+    VULKAN_CALL(glfwCreateWindowSurface, context->instance, swapchain->window, NULL, &swapchain->surface);
+    VULKAN_CALL(vkGetPhysicalDeviceSurfaceSupportKHR, context->physical_device, context->queue_family,
+                swapchain->surface, &supported);
+    VULKAN_CALL(vkGetPhysicalDeviceSurfaceFormatsKHR, context->physical_device, swapchain->surface, &count,
+                formats);
+    for (uint32_t i = 0; i < count && supported; ++i) {
+        swapchain->format = formats[i];
+        if (is_usable(formats[i]))
             return STATUS_DONE;
     }
-    log_error("the window takes no pictures of 8-bit RGBA or BGRA");
+    log_error("%s cannot show pictures of 8-bit RGBA or BGRA in this window", context->properties.deviceName);
+
+error:
     return STATUS_UNABLE;
 }
 
-static enum status create_images(struct swapchain *swapchain)
+enum status swapchain_create(struct vulkan_context *context, GLFWwindow *window, struct swapchain **pointer)
 {
-    VkDevice device = swapchain->context->device;
-    uint32_t count;
-    FAIL_UNLESS_SUCCESS(vkGetSwapchainImagesKHR, device, swapchain->handle, &count, NULL);
-    swapchain->images = calloc(count, sizeof *swapchain->images);
-    swapchain->drawn = calloc(count, sizeof *swapchain->drawn);
-    if (!swapchain->images || !swapchain->drawn) {
-        log_error("no memory for the window's %u images", count);
+    struct swapchain *swapchain = *pointer = calloc(1, sizeof *swapchain);
+    if (!swapchain) {
+        log_error("no memory for the window's swapchain");
         return STATUS_UNABLE;
     }
-    swapchain->image_count = count;
-    FAIL_UNLESS_SUCCESS(vkGetSwapchainImagesKHR, device, swapchain->handle, &count, swapchain->images);
-    for (uint32_t i = 0; i < count; ++i)
-        FAIL_UNLESS_SUCCESS(vkCreateSemaphore, device,
-                            &(VkSemaphoreCreateInfo){.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO}, NULL,
-                            &swapchain->drawn[i]);
-    return vulkan_buffer_create(
-        swapchain->context, 4 * (VkDeviceSize)swapchain->extent.width * swapchain->extent.height,
-        VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-        (const VkMemoryPropertyFlags[]){
-            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0},
-        &swapchain->pixels);
+    swapchain->context = context;
+    swapchain->window = window;
+    if (create_surface(swapchain) == STATUS_DONE &&
+        vulkan_command_create(context, &swapchain->command) == STATUS_DONE)
+        return STATUS_DONE;
+    swapchain_destroy(pointer);
+    return STATUS_UNABLE;
+}
+
+static void destroy_picture(struct swapchain *swapchain)
+{
+    vkDestroyImage(swapchain->context->device, swapchain->picture, NULL);
+    vkFreeMemory(swapchain->context->device, swapchain->picture_memory, NULL);
+    vulkan_buffer_destroy(swapchain->context, &swapchain->pixels);
+    swapchain->picture = VK_NULL_HANDLE;
+    swapchain->picture_memory = VK_NULL_HANDLE;
+    swapchain->picture_extent = (VkExtent2D){0};
+}
+
+void swapchain_destroy(struct swapchain **pointer)
+{
+    struct swapchain *swapchain = *pointer;
+    *pointer = NULL;
+    if (!swapchain)
+        return;
+    const VkDevice device = swapchain->context->device;
+    vkQueueWaitIdle(swapchain->context->queue);
+    destroy_picture(swapchain);
+    vkDestroySwapchainKHR(device, swapchain->handle, NULL);
+    vulkan_command_destroy(&swapchain->command);
+    if (swapchain->surface)
+        vkDestroySurfaceKHR(swapchain->context->instance, swapchain->surface, NULL);
+    free(swapchain);
+}
+
+static enum status create_picture(struct swapchain *swapchain, VkExtent2D extent)
+{
+    struct vulkan_context *context = swapchain->context;
+    VkMemoryRequirements needs;
+    VULKAN_CALL(vkCreateImage, context->device,
+                &(VkImageCreateInfo){
+                    .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                    .imageType = VK_IMAGE_TYPE_2D,
+                    .format = VK_FORMAT_R8G8B8A8_UNORM,
+                    .extent = {extent.width, extent.height, 1},
+                    .mipLevels = 1,
+                    .arrayLayers = 1,
+                    .samples = VK_SAMPLE_COUNT_1_BIT,
+                    .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                },
+                NULL, &swapchain->picture);
+    vkGetImageMemoryRequirements(context->device, swapchain->picture, &needs);
+    VULKAN_CALL(vkAllocateMemory, context->device,
+                &(VkMemoryAllocateInfo){
+                    .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                    .allocationSize = needs.size,
+                    .memoryTypeIndex = (uint32_t)ffs((int)needs.memoryTypeBits) - 1, /* the fastest first */
+                },
+                NULL, &swapchain->picture_memory);
+    VULKAN_CALL(vkBindImageMemory, context->device, swapchain->picture, swapchain->picture_memory, 0);
+    return vulkan_buffer_create(context, "picture for the window",
+                                4 * (VkDeviceSize)extent.width * extent.height,
+                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BUFFER_UPLOAD, &swapchain->pixels);
+
+error:
+    return STATUS_UNABLE;
+}
+
+unsigned char *swapchain_picture(struct swapchain *swapchain, unsigned width, unsigned height)
+{
+    uint32_t most = swapchain->context->properties.limits.maxImageDimension2D;
+    const VkExtent2D old = swapchain->picture_extent, extent = {width, height};
+    if (old.width == width && old.height == height)
+        return swapchain->pixels.mapped;
+    destroy_picture(swapchain);
+    if (width > most || height > most)
+        log_error("a window shows pictures of up to %ux%u pixels, not %ux%u", most, most, width, height);
+    else if (create_picture(swapchain, extent) == STATUS_DONE)
+        swapchain->picture_extent = extent;
+    return swapchain->picture_extent.width > 0 ? swapchain->pixels.mapped : NULL;
+}
+
+/* a b / c, rounded to nearest, at least 1. */
+static uint32_t scale(uint32_t a, uint32_t b, uint32_t c)
+{
+    uint32_t scaled = (uint32_t)(((uint64_t)a * b + c / 2) / c);
+    return scaled > 0 ? scaled : 1;
+}
+
+VkRect2D fit_picture(VkExtent2D picture, VkExtent2D window)
+{
+    VkExtent2D fit = window;
+    if (window.width == 0 || window.height == 0)
+        return (VkRect2D){0};
+    if ((uint64_t)window.width * picture.height <= (uint64_t)window.height * picture.width)
+        fit.height = scale(picture.height, window.width, picture.width);
+    else
+        fit.width = scale(picture.width, window.height, picture.height);
+    return (VkRect2D){
+        {(int32_t)((window.width - fit.width) / 2), (int32_t)((window.height - fit.height) / 2)}, fit};
 }
 
 static enum status build(struct swapchain *swapchain, const VkSurfaceCapabilitiesKHR *capabilities)
 {
-    VkSurfaceFormatKHR format;
-    enum status status = choose_format(swapchain, &format);
-    if (status != STATUS_DONE)
-        return status;
-    if (!(capabilities->supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT)) {
-        log_error("the window's images cannot be copied to");
-        return STATUS_UNABLE;
-    }
-    uint32_t image_count = capabilities->minImageCount + 1;
-    if (capabilities->maxImageCount > 0 && image_count > capabilities->maxImageCount)
-        image_count = capabilities->maxImageCount;
+    const VkDevice device = swapchain->context->device;
+    uint32_t count = capabilities->minImageCount + 1;
+    if (capabilities->maxImageCount > 0 && count > capabilities->maxImageCount)
+        count = capabilities->maxImageCount;
     bool opaque = capabilities->supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
-    FAIL_UNLESS_SUCCESS(
-        vkCreateSwapchainKHR, swapchain->context->device,
+    VULKAN_CALL(
+        vkCreateSwapchainKHR, device,
         &(VkSwapchainCreateInfoKHR){
             .sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
             .surface = swapchain->surface,
-            .minImageCount = image_count,
-            .imageFormat = format.format,
-            .imageColorSpace = format.colorSpace,
+            .minImageCount = count,
+            .imageFormat = swapchain->format.format,
+            .imageColorSpace = swapchain->format.colorSpace,
             .imageExtent = swapchain->extent,
             .imageArrayLayers = 1,
             .imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT,
@@ -164,217 +192,140 @@ static enum status build(struct swapchain *swapchain, const VkSurfaceCapabilitie
             .clipped = VK_TRUE,
         },
         NULL, &swapchain->handle);
-    return create_images(swapchain);
+    count = MOST_IMAGES;
+    VULKAN_CALL(vkGetSwapchainImagesKHR, device, swapchain->handle, &count, swapchain->images);
+    return STATUS_DONE;
+
+error:
+    return STATUS_UNABLE;
 }
 
-static VkExtent2D choose_extent(const struct swapchain *swapchain,
-                                const VkSurfaceCapabilitiesKHR *capabilities)
-{
-    if (capabilities->currentExtent.width != UINT32_MAX)
-        return capabilities->currentExtent;
-    int width, height;
-    glfwGetFramebufferSize(swapchain->window, &width, &height);
-    const VkExtent2D least = capabilities->minImageExtent, most = capabilities->maxImageExtent;
-    VkExtent2D extent = {(uint32_t)width, (uint32_t)height};
-    if (extent.width == 0 || extent.height == 0)
-        return extent;
-    extent.width = extent.width < least.width ? least.width : extent.width;
-    extent.height = extent.height < least.height ? least.height : extent.height;
-    extent.width = extent.width > most.width ? most.width : extent.width;
-    extent.height = extent.height > most.height ? most.height : extent.height;
-    return extent;
-}
-
-/* Makes a swapchain as large as the surface. VK_NOT_READY: there is none while that is empty. */
-static enum status keep_size(struct swapchain *swapchain, VkResult *result)
+/* Makes a swapchain as large as the window, unless there is one. There is none while the window is empty. */
+static enum status keep_size(struct swapchain *swapchain)
 {
     VkSurfaceCapabilitiesKHR capabilities;
-    if (!swapchain->surface && create_surface(swapchain) != STATUS_DONE)
-        return STATUS_UNABLE;
-    *result = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(swapchain->context->physical_device,
-                                                        swapchain->surface, &capabilities);
-    if (*result != VK_SUCCESS)
-        return STATUS_DONE;
-    VkExtent2D extent = choose_extent(swapchain, &capabilities);
+    int width, height;
+    VULKAN_CALL(vkGetPhysicalDeviceSurfaceCapabilitiesKHR, swapchain->context->physical_device,
+                swapchain->surface, &capabilities);
+    VkExtent2D extent = capabilities.currentExtent;
+    if (extent.width == UINT32_MAX) { /* whatever one wants */
+        glfwGetFramebufferSize(swapchain->window, &width, &height);
+        extent = (VkExtent2D){(uint32_t)width, (uint32_t)height};
+    }
     if (swapchain->handle && extent.width == swapchain->extent.width &&
         extent.height == swapchain->extent.height)
         return STATUS_DONE;
-    destroy_images(swapchain);
+    vkQueueWaitIdle(swapchain->context->queue);
+    vkDestroySwapchainKHR(swapchain->context->device, swapchain->handle, NULL);
+    swapchain->handle = VK_NULL_HANDLE;
     swapchain->extent = extent;
-    if (extent.width > 0 && extent.height > 0)
-        return build(swapchain, &capabilities);
-    *result = VK_NOT_READY;
+    return extent.width > 0 && extent.height > 0 ? build(swapchain, &capabilities) : STATUS_DONE;
+
+error:
+    return STATUS_UNABLE;
+}
+
+/* The image goes from one layout and use to the next; whatever is transferred before is complete then. */
+static void change_layout(struct swapchain *swapchain, VkImage image, VkImageLayout from, VkImageLayout to)
+{
+    const VkAccessFlags transfer = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+    vkCmdPipelineBarrier(swapchain->command.buffer, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                         VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, NULL, 0, NULL, 1,
+                         &(VkImageMemoryBarrier){
+                             .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
+                             .srcAccessMask = transfer,
+                             .dstAccessMask = transfer,
+                             .oldLayout = from,
+                             .newLayout = to,
+                             .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                             .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                             .image = image,
+                             .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1},
+                         });
+}
+
+/* The picture is uploaded and scaled into the image. */
+static void record(struct swapchain *swapchain, VkImage image)
+{
+    const VkCommandBuffer commands = swapchain->command.buffer;
+    const VkImageSubresourceLayers layers = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    const VkExtent2D size = swapchain->picture_extent;
+    const VkRect2D fit = fit_picture(size, swapchain->extent);
+    const VkOffset3D end = {fit.offset.x + (int32_t)fit.extent.width,
+                            fit.offset.y + (int32_t)fit.extent.height, 1};
+    bool enlarged = fit.extent.width >= size.width && fit.extent.height >= size.height;
+    change_layout(swapchain, swapchain->picture, VK_IMAGE_LAYOUT_UNDEFINED,
+                  VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    vkCmdCopyBufferToImage(
+        commands, swapchain->pixels.buffer, swapchain->picture, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+        &(VkBufferImageCopy){.imageSubresource = layers, .imageExtent = {size.width, size.height, 1}});
+    change_layout(swapchain, swapchain->picture, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                  VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    change_layout(swapchain, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    vkCmdClearColorImage(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                         &(VkClearColorValue){.float32 = {0, 0, 0, 1}}, 1,
+                         &(VkImageSubresourceRange){VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1});
+    change_layout(swapchain, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                  VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    vkCmdBlitImage(commands, swapchain->picture, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image,
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                   &(VkImageBlit){
+                       .srcSubresource = layers,
+                       .srcOffsets = {{0}, {(int32_t)size.width, (int32_t)size.height, 1}},
+                       .dstSubresource = layers,
+                       .dstOffsets = {{fit.offset.x, fit.offset.y, 0}, end},
+                   },
+                   enlarged ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
+    change_layout(swapchain, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+}
+
+static enum status wait_for_fence(const struct swapchain *swapchain)
+{
+    const VkDevice device = swapchain->context->device;
+    VULKAN_CALL(vkWaitForFences, device, 1, &swapchain->command.fence, VK_TRUE, UINT64_MAX);
+    VULKAN_CALL(vkResetFences, device, 1, &swapchain->command.fence);
     return STATUS_DONE;
+
+error:
+    return STATUS_UNABLE;
 }
 
-static void add_barrier(struct swapchain *swapchain, VkImage image, const VkImageMemoryBarrier *barrier,
-                        VkPipelineStageFlags before, VkPipelineStageFlags after)
+/* Draws into the image that is being acquired, and waits until that is done. */
+static enum status draw(struct swapchain *swapchain, VkImage image)
 {
-    VkImageMemoryBarrier full = *barrier;
-    full.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
-    full.srcQueueFamilyIndex = full.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    full.image = image;
-    full.subresourceRange = (VkImageSubresourceRange){VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    vkCmdPipelineBarrier(swapchain->commands, before, after, 0, 0, NULL, 0, NULL, 1, &full);
+    if (wait_for_fence(swapchain) != STATUS_DONE ||
+        vulkan_command_begin(&swapchain->command, "picture in the window") != STATUS_DONE)
+        return STATUS_UNABLE;
+    record(swapchain, image);
+    return vulkan_command_submit(&swapchain->command) == STATUS_DONE ? wait_for_fence(swapchain)
+                                                                     : STATUS_UNABLE;
 }
 
-static enum status record_copy(struct swapchain *swapchain, VkImage image)
+enum status swapchain_show(struct swapchain *swapchain, bool *shown)
 {
-    FAIL_UNLESS_SUCCESS(vkBeginCommandBuffer, swapchain->commands,
-                        &(VkCommandBufferBeginInfo){
-                            .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
-                        });
-    add_barrier(swapchain, image,
-                &(VkImageMemoryBarrier){
-                    .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                    .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-                    .newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                },
-                VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT);
-    vkCmdCopyBufferToImage(swapchain->commands, swapchain->pixels.buffer, image,
-                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                           &(VkBufferImageCopy){
-                               .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                               .imageExtent = {swapchain->extent.width, swapchain->extent.height, 1},
-                           });
-    add_barrier(swapchain, image,
-                &(VkImageMemoryBarrier){
-                    .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                    .oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                    .newLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
-                },
-                VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT);
-    FAIL_UNLESS_SUCCESS(vkEndCommandBuffer, swapchain->commands);
-    return STATUS_DONE;
-}
-
-static enum status wait_for_fence(struct swapchain *swapchain)
-{
-    VkDevice device = swapchain->context->device;
-    FAIL_UNLESS_SUCCESS(vkWaitForFences, device, 1, &swapchain->fence, VK_TRUE, fence_timeout);
-    FAIL_UNLESS_SUCCESS(vkResetFences, device, 1, &swapchain->fence);
-    return STATUS_DONE;
-}
-
-/* Draws into an acquired image, waits for that, and hands the image over; *result is what came of it. */
-static enum status draw(struct swapchain *swapchain, const struct rgba_picture *picture, uint32_t index,
-                        VkResult *result)
-{
-    VkQueue queue = swapchain->context->queue;
-    fit_draw(picture, swapchain->extent.width, swapchain->extent.height, swapchain->blue_first,
-             swapchain->pixels.mapped);
-    enum status status = wait_for_fence(swapchain);
-    if (status == STATUS_DONE)
-        status = record_copy(swapchain, swapchain->images[index]);
-    if (status != STATUS_DONE)
-        return status;
-    FAIL_UNLESS_SUCCESS(vkQueueSubmit, queue, 1,
-                        &(VkSubmitInfo){
-                            .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
-                            .commandBufferCount = 1,
-                            .pCommandBuffers = &swapchain->commands,
-                            .signalSemaphoreCount = 1,
-                            .pSignalSemaphores = &swapchain->drawn[index],
-                        },
-                        swapchain->fence);
-    status = wait_for_fence(swapchain);
-    *result = vkQueuePresentKHR(queue, &(VkPresentInfoKHR){
-                                           .sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
-                                           .waitSemaphoreCount = 1,
-                                           .pWaitSemaphores = &swapchain->drawn[index],
-                                           .swapchainCount = 1,
-                                           .pSwapchains = &swapchain->handle,
-                                           .pImageIndices = &index,
-                                       });
-    return status;
-}
-
-static enum status try_to_show(struct swapchain *swapchain, const struct rgba_picture *picture,
-                               VkResult *result)
-{
-    enum status status = keep_size(swapchain, result);
-    if (status != STATUS_DONE || *result != VK_SUCCESS)
-        return status;
     uint32_t index;
-    *result = vkAcquireNextImageKHR(swapchain->context->device, swapchain->handle, acquire_timeout,
-                                    VK_NULL_HANDLE, swapchain->fence, &index);
-    if (*result == VK_SUCCESS || *result == VK_SUBOPTIMAL_KHR)
-        status = draw(swapchain, picture, index, result);
-    return status;
-}
-
-enum status swapchain_show(struct swapchain *swapchain, const struct rgba_picture *picture, bool *shown)
-{
-    enum { ATTEMPTS = 8 }; /* while someone drags the window's corner */
-    VkResult result = VK_ERROR_OUT_OF_DATE_KHR;
     *shown = false;
-    for (int i = 0; i < ATTEMPTS; ++i) {
-        enum status status = try_to_show(swapchain, picture, &result);
-        if (status != STATUS_DONE)
-            return status;
-        if (result != VK_ERROR_OUT_OF_DATE_KHR && result != VK_ERROR_SURFACE_LOST_KHR)
-            break;
-        destroy_images(swapchain);
-        if (result == VK_ERROR_SURFACE_LOST_KHR)
-            destroy_surface(swapchain);
+    if (keep_size(swapchain) != STATUS_DONE)
+        return STATUS_UNABLE;
+    if (!swapchain->handle || swapchain->picture_extent.width == 0)
+        return STATUS_DONE;
+    VkResult result = vkAcquireNextImageKHR(swapchain->context->device, swapchain->handle, acquire_timeout,
+                                            VK_NULL_HANDLE, swapchain->command.fence, &index);
+    if (result == VK_SUCCESS || result == VK_SUBOPTIMAL_KHR) {
+        if (draw(swapchain, swapchain->images[index]) != STATUS_DONE)
+            return STATUS_UNABLE;
+        result = vkQueuePresentKHR(swapchain->context->queue, &(VkPresentInfoKHR){
+                                                                  .sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
+                                                                  .swapchainCount = 1,
+                                                                  .pSwapchains = &swapchain->handle,
+                                                                  .pImageIndices = &index,
+                                                              });
     }
     *shown = result == VK_SUCCESS || result == VK_SUBOPTIMAL_KHR;
-    if (*shown || result == VK_NOT_READY || result == VK_TIMEOUT || result == VK_ERROR_OUT_OF_DATE_KHR)
+    if (result == VK_ERROR_OUT_OF_DATE_KHR)
+        swapchain->extent = (VkExtent2D){0}; /* the next call builds another one */
+    if (*shown || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_NOT_READY || result == VK_TIMEOUT)
         return STATUS_DONE;
-    return fail("showing a picture", result);
-}
-
-static enum status create_commands(struct swapchain *swapchain)
-{
-    const struct vulkan_context *context = swapchain->context;
-    FAIL_UNLESS_SUCCESS(vkCreateCommandPool, context->device,
-                        &(VkCommandPoolCreateInfo){
-                            .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                            .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
-                            .queueFamilyIndex = context->queue_family,
-                        },
-                        NULL, &swapchain->pool);
-    FAIL_UNLESS_SUCCESS(vkAllocateCommandBuffers, context->device,
-                        &(VkCommandBufferAllocateInfo){
-                            .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                            .commandPool = swapchain->pool,
-                            .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                            .commandBufferCount = 1,
-                        },
-                        &swapchain->commands);
-    FAIL_UNLESS_SUCCESS(vkCreateFence, context->device,
-                        &(VkFenceCreateInfo){.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO}, NULL,
-                        &swapchain->fence);
-    return STATUS_DONE;
-}
-
-enum status swapchain_create(struct vulkan_context *context, GLFWwindow *window, struct swapchain **swapchain)
-{
-    *swapchain = calloc(1, sizeof **swapchain);
-    if (!*swapchain) {
-        log_error("no memory for the window's swapchain");
-        return STATUS_UNABLE;
-    }
-    (*swapchain)->context = context;
-    (*swapchain)->window = window;
-    enum status status = create_surface(*swapchain);
-    if (status == STATUS_DONE)
-        status = create_commands(*swapchain);
-    if (status != STATUS_DONE)
-        swapchain_destroy(swapchain);
-    return status;
-}
-
-void swapchain_destroy(struct swapchain **pointer)
-{
-    struct swapchain *swapchain = *pointer;
-    *pointer = NULL;
-    if (!swapchain)
-        return;
-    destroy_images(swapchain);
-    vkDestroyFence(swapchain->context->device, swapchain->fence, NULL);
-    vkDestroyCommandPool(swapchain->context->device, swapchain->pool, NULL);
-    destroy_surface(swapchain);
-    free(swapchain);
+    log_error("showing a picture: %s", vulkan_result_name(result));
+    return STATUS_UNABLE;
 }

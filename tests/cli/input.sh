@@ -35,4 +35,12 @@ bad_scene_among_good_ones() {
     [ "$(json result.json scenes)" = 2 ] || fail 'not two results in the JSON file'
 }
 
+scene_that_is_warned_of() {
+    for command in render 'check --json result.json'; do
+        expect 0 "$VKWHITTED" $command --size 30x20 "$SOURCE_DIR/tests/scenes/overlapping_glass.yaml"
+        [ "$(grep -c '^vkwhitted: warning: ' err)" = 1 ] || fail "not one warning from $command"
+        said 'overlapping_glass.yaml:[0-9:]+ transparent bodies "Ball1" and "Ball2" overlap \(and 2 other pairs\)'
+    done
+}
+
 "$1"

@@ -72,10 +72,11 @@ missing_folder() {
     refused 3 'a.png: .*directory' render $small "$figure" -o a.png
 }
 
-# On a file system of 64 KiB where that may be made, and under a limit of file size.
+# On a file system of 64 KiB where that may be made. Under a limit of file size with the reference only: a driver that
+# keeps device memory in a file (Mesa 25) does not survive it.
 disk_full() {
     for format in png exr pfm; do
-        (ulimit -f 16; expect 3 "$VKWHITTED" render -q "$figure" -o a.$format; said "^vkwhitted: error: a.$format: cannot write: File too large$") || exit 1
+        (ulimit -f 16; expect 3 "$VKWHITTED" render -q --backend cpu "$figure" -o a.$format; said "^vkwhitted: error: a.$format: cannot write: File too large$") || exit 1
         only_files
     done
     mkdir small
@@ -92,7 +93,7 @@ disk_full() {
 
 existing_file_kept_on_failure() {
     echo precious >a.pfm
-    (ulimit -f 16; expect 3 "$VKWHITTED" render -q "$figure" -o a.pfm) || exit 1
+    (ulimit -f 16; expect 3 "$VKWHITTED" render -q --backend cpu "$figure" -o a.pfm) || exit 1
     [ "$(cat a.pfm)" = precious ] || fail 'the old file is gone'
     expect 2 "$VKWHITTED" render -q /dev/null -o a.pfm
     [ "$(cat a.pfm)" = precious ] || fail 'the old file is gone'

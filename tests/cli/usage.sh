@@ -25,6 +25,17 @@ missing_argument() {
     refused 2 '-o: expected a value behind it' render "$figure" -o
 }
 
+# A value may look like an option only where it cannot be one.
+value_like_an_option() {
+    refused 2 '--json: expected a value behind it; if --size is meant, write --json=--size$' check --json --size "$figure"
+    refused 2 '-o: expected a value behind it; if -q is meant, write -o-q$' render -o -q "$figure"
+    refused 2 '--device: expected a value behind it; if -1 is meant' render --device -1 "$figure"
+    only_files
+    expect 0 "$VKWHITTED" render -q $small "$figure" --stats=-x -o-y.png
+    only_files -x -y.png
+    expect 0 "$VKWHITTED" render -q $small -- "$figure"
+}
+
 size() {
     for size in 12x 0x5 5x0 x12 12 12x34x56 -1x5 '12 x5' 1e2x5 65537x1 99999999999999999999x5 0x10x5 ''; do
         refused 2 "--size $size: expected WIDTHxHEIGHT" render --size "$size" "$figure"
@@ -37,7 +48,7 @@ numbers() {
         for option in --max-bounces --samples --light-samples --threads --repeat; do
             refused 2 "$option $number: expected a whole number from" render "$option" "${number//[\[\]]/}" "$figure"
         done
-        refused 2 "--allow $number: expected a number of pixels" check --allow "${number//[\[\]]/}" "$figure"
+        refused 2 "--allow $number: expected a whole number from" check --allow "${number//[\[\]]/}" "$figure"
     done
     refused 2 '--max-bounces 1001: ' render --max-bounces 1001 "$figure"
     refused 2 '--samples 0: ' render --samples 0 "$figure"
@@ -89,7 +100,9 @@ impossible_together() {
     refused 2 '--precision quad' watch --precision quad -o a.png "$figure"
     (unset DISPLAY WAYLAND_DISPLAY; refused 2 'watch needs -o FILE where there is no display' watch "$figure") || exit 1
     refused 2 '--heatmap takes one scene' check --heatmap a.png "$figure" "$figure"
-    refused 2 '--heatmap writes a .png' check --heatmap a.exr "$figure"
+    for heatmap in a.exr a.txt a png; do
+        refused 2 '--heatmap writes a .png' check --heatmap $heatmap "$figure"
+    done
     only_files
 }
 
@@ -108,6 +121,7 @@ help_and_version() {
         said '^usage: vkwhitted render SCENE' out
         [ ! -s err ] || fail 'standard error'
     done
+    "$VKWHITTED" --help | grep -E '^.{101}' && fail 'the help is wider than 100 columns'
     for option in $("$VKWHITTED" --help | grep -oE -- '--[a-z-]+' | sort -u); do
         "$VKWHITTED" render "$option" 2>&1 </dev/null | grep -q "no such option" && fail "$option in the help is no option"
     done
@@ -115,6 +129,61 @@ help_and_version() {
     said '^vkwhitted [0-9]+\.[0-9]+\.[0-9]+$' out
     "$VKWHITTED" --help >/dev/full 2>err
     [ $? -eq 3 ] || fail 'a full standard output'
+}
+
+# The manual page has every option of the help, in the sections of the same commands.
+manual_page() {
+    local page=$BINARY_DIR/vkwhitted.1
+    "$VKWHITTED" --help | sed -nE 's/^([a-z][a-z, ]+):$/\1/p; s/^  (-[^ ]+(, -[^ ]+)?( [^ ]+)?)  .*/\1/p' >expected
+    [ "$(wc -l <expected)" -gt 40 ] || fail 'too few options in the help'
+    sed -nE 's/^\.Ss ([a-z])/\1/p; /^\.It Fl/ { s/^\.It Fl /-/; s/ , Fl /, -/; s/ Ar / /; p }' "$page" |
+        diff expected - || fail 'manual page'
+    [ "$(grep -c '^\.Bl' "$page")" -eq "$(grep -c '^\.El' "$page")" ] || fail 'a list that does not end'
+    command -v groff >/dev/null || return 0
+    expect 0 groff -mdoc -Tutf8 -ww -z "$page"
+    [ ! -s err ] || fail 'warnings of groff'
+}
+
+# completes LINE WORDS: what bash proposes for the last word of the line, the words in any order.
+completes() {
+    local COMP_WORDS COMP_CWORD COMPREPLY=()
+    read -ra COMP_WORDS <<<"$1"
+    [[ $1 != *' ' ]] || COMP_WORDS+=('')
+    COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
+    _vkwhitted
+    [ "$(printf '%s\n' "${COMPREPLY[@]}" | sort -u | paste -sd ' ')" = "$2" ] || fail "'$1' completes to '${COMPREPLY[*]}', expected '$2'"
+}
+
+completion() {
+    . "$BINARY_DIR/completions/bash/vkwhitted"
+    complete -p vkwhitted >out || fail 'not in use'
+    mkdir folder
+    touch a.yaml b.json c.png
+    completes 'vkwhitted p' pixel
+    completes 'vkwhitted ' '--help --version bench check devices pixel render watch'
+    completes 'vkwhitted check --ag' --against
+    completes 'vkwhitted check --against ' 'double quad'
+    completes 'vkwhitted render --precision ' 'double float quad'
+    completes 'vkwhitted render --precision = d' double
+    completes 'vkwhitted render --precision =' 'double float quad'
+    completes 'vkwhitted render --h' --help
+    completes 'vkwhitted render --ag' ''
+    completes 'vkwhitted render --s' '--samples --size --stats'
+    completes 'vkwhitted devices -' '--device --help --validate --version -h -q -v'
+    completes 'vkwhitted render --size ' ''
+    completes 'vkwhitted render --fast ' 'a.yaml folder'
+    completes 'vkwhitted check a.yaml ' 'a.yaml folder'
+    completes 'vkwhitted watch --shaders ' folder
+    completes 'vkwhitted bench --compare ' 'b.json folder'
+    completes 'vkwhitted check --heatmap ' 'c.png folder'
+    completes 'vkwhitted render -o ' 'a.yaml b.json c.png folder out'
+    if command -v zsh >/dev/null; then
+        expect 0 zsh -n "$BINARY_DIR/completions/zsh/_vkwhitted"
+    fi
+    said '^#compdef vkwhitted$' "$BINARY_DIR/completions/zsh/_vkwhitted"
+    for option in $("$VKWHITTED" --help | grep -oE -- '--[a-z-]+' | sort -u); do
+        said "^  (-., )?$option " "$BINARY_DIR/completions/zsh/_vkwhitted"
+    done
 }
 
 "$1"

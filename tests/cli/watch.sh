@@ -134,6 +134,85 @@ ways_of_saving() {
     edit 's,"tally.glsl","part/tally.glsl",' shaders/whitted.comp
     echo broken >>shaders/part/tally.glsl
     eventually grep -Eq '^shaders/part/tally.glsl:[0-9]+: error: ' err
+    turn 'same pipeline' cp "$SOURCE_DIR/shaders/tally.glsl" shaders/part/
+    finish
+}
+
+# What is missing, or broken outside the folder, is mended.
+missing_includes() {
+    local of=$SOURCE_DIR/shaders
+    start
+    mkdir shaders/later
+    turn 'compile failed' edit 's,"tally.glsl","later/tally.glsl",' shaders/whitted.comp
+    said '^shaders/whitted.comp:[0-9]+: error: cannot include later/tally.glsl$'
+    turn 'same pipeline' cp "$of/tally.glsl" shaders/later/
+    turn 'compile failed' edit 's,"later/tally.glsl","../tally.part",' shaders/whitted.comp
+    turn 'compile failed' sh -c 'echo broken >tally.part'
+    said '^shaders/../tally.part:[0-9]+: error: '
+    turn 'same pipeline' cp "$of/tally.glsl" tally.part
+    turn 'same pipeline' sh -c 'echo "// a comment" >>tally.part'
+    picture_is_rendered_scene
+    finish
+}
+
+# Written slowly, in place, the file is taken when it has been closed, not before.
+written_slowly() {
+    start
+    sed 's/power: [0-9]*/power: 44/' s.yaml >new.yaml
+    turn 'same pipeline' sh -c '(head -c 300 new.yaml; sleep 0.4; tail -c +301 new.yaml) >s.yaml'
+    picture_is_rendered_scene
+    cp shaders/shade.glsl new.glsl
+    turn 'same pipeline' sh -c '(head -c 999 new.glsl; sleep 0.4; tail -c +1000 new.glsl) >shaders/shade.glsl'
+    finish
+    not_said 'refused|failed'
+}
+
+# 200 in a row, in all ways: the last one counts, and each picture is one of a whole file.
+quick_saves() {
+    local i
+    start
+    for i in {1..200}; do
+        sed "s/power: [0-9]*/power: $((100 + i))/" s.yaml >new.yaml
+        case $((i % 3)) in
+        0) mv new.yaml s.yaml ;;
+        1) cat new.yaml >s.yaml ;;
+        2) cp new.yaml real-$((i % 2)).yaml && ln -sf real-$((i % 2)).yaml link && mv link s.yaml ;;
+        esac
+    done
+    "$VKWHITTED" render -q s.yaml $small -o expected.pfm || fail 'render'
+    eventually cmp -s a.pfm expected.pfm
+    finish
+    not_said 'refused|failed'
+}
+
+# cpu_ticks: what the program has used.
+cpu_ticks() { awk '{ print $14 + $15 }' /proc/$watcher/stat; }
+
+# Waiting takes well under 1 % of a processor.
+idle() {
+    local before
+    start
+    sleep 2.5
+    before=$(cpu_ticks)
+    sleep 5
+    [ $(($(cpu_ticks) - before)) -le 4 ] || fail "$(($(cpu_ticks) - before)) of 500 ticks while nothing happens"
+    finish
+}
+
+# The pipeline that renders in small portions cannot be built, of a picture that needs it: the next picture has
+# another one.
+no_resumable_pipeline() {
+    [ "$SANITIZE" = OFF ] || skip 'the sanitizer wants to be loaded first'
+    sed 's/look_at: [^]]*]/look_at: [0, 0, -12]/' "$SOURCE_DIR/scenes/hard/touching.yaml" >away.yaml
+    figure=away.yaml
+    small='--size 8x8 --max-bounces 64'
+    LD_PRELOAD=$NO_PIPELINES start
+    touch no_pipelines
+    turn 'rendering failed; picture 1 stays' cp "$SOURCE_DIR/scenes/hard/touching.yaml" s.yaml
+    said VK_ERROR_OUT_OF_DEVICE_MEMORY
+    rm no_pipelines
+    turn 'picture 2: pipeline rebuilt' cp away.yaml s.yaml
+    picture_is_rendered_scene
     finish
 }
 
@@ -141,6 +220,16 @@ checked_in_the_background() {
     start --check
     eventually grep -q '^vkwhitted: picture 1: agrees with the reference in all 2400 pixels' err
     turn 'pipeline rebuilt' edit 's/matte.b \* sin_tan)/matte.b * sin_tan * real(1.01))/' shaders/shade.glsl
+    eventually grep -Eq '^vkwhitted: picture 2: [1-9][0-9]* of 2400 pixels differ from the reference' err
+    finish
+}
+
+# In double, both sides, and where they differ less than float tells.
+checked_in_double() {
+    "$VKWHITTED" devices | grep -q 'fp64 *yes' || skip 'no fp64'
+    start --check --precision double
+    eventually grep -q '^vkwhitted: picture 1: agrees with the reference in all 2400 pixels' err
+    turn 'pipeline rebuilt' edit 's/matte.b \* sin_tan)/matte.b * sin_tan * real(1.0000000001lf))/' shaders/shade.glsl
     eventually grep -Eq '^vkwhitted: picture 2: [1-9][0-9]* of 2400 pixels differ from the reference' err
     finish
 }

@@ -6,6 +6,7 @@
 
 #include "function_table.h"
 #include "vulkan/buffer.h"
+#include "vulkan/pass.h"
 
 enum { BATCH = 1 << 16 }; /* cases a dispatch */
 
@@ -16,27 +17,19 @@ struct device {
     bool corrected_division, corrected_root;
     struct vulkan_buffer scene; /* functions.comp has the scene's bindings, and never reads them */
     struct vulkan_buffer inputs, outputs;
-    VkDescriptorSetLayout set_layout;
-    VkPipelineLayout pipeline_layout;
-    VkDescriptorPool descriptor_pool;
-    VkDescriptorSet set;
-    VkPipeline pipeline;
-    VkCommandPool command_pool;
-    VkCommandBuffer commands;
-    VkQueryPool timestamps; /* VK_NULL_HANDLE: the device has none */
-    VkFence fence;
+    struct vulkan_command command;
+    struct vulkan_pass pass; /* of the function that is loaded */
 };
 
-/* Prepares everything but the pipeline. Division and root are corrected where the device needs it, as the
+/* Prepares everything but the pass. Division and root are corrected where the device needs it, as the
  * renderer does, or in any case; on failure the reason is reported and *device is destroyed. */
 enum status device_create(struct vulkan_context *context, bool corrected, struct device *device);
 void device_destroy(struct device *device);
 
-/* Builds the pipeline that calls the test's function, in place of the one before. */
-enum status device_load(struct device *device, const struct function_test *test, size_t input_words,
-                        size_t output_words);
+/* Builds the pass that calls the test's function, in place of the one before. */
+enum status device_load(struct device *device, const struct function_test *test);
 
-/* Runs the pipeline on `count` cases, at most BATCH; *ns is the time the device took, or that the host waited
+/* Runs the pass on `count` cases, at most BATCH; *ns is the time the device took, or that the host waited
  * where the device has no timestamps. */
 enum status device_run(struct device *device, size_t count, double *ns);
 

@@ -1,8 +1,5 @@
 #include "function_table.h"
 
-#include "call_reference.h"
-#include "generate.h"
-
 /* Of scene.glsl. */
 enum {
     SPHERES = 2,
@@ -18,76 +15,85 @@ enum {
     ENTERED_SPHERES = 20,
 };
 
-const struct constant common_constants[COMMON_CONSTANTS] = {
+const struct pass_constant common_constants[COMMON_CONSTANTS] = {
     {SPHERES, 1},
     {PLANES, 1},
     {QUAD_LIGHTS, 1},
     {LIGHT_SAMPLES, QUAD_LIGHT_SAMPLES},
 };
 
+#define UNTYPED(name)                                                                                        \
+    static void generate_untyped_##name(struct random *random, void *input)                                  \
+    {                                                                                                        \
+        generate_##name(random, input);                                                                      \
+    }                                                                                                        \
+    static void call_untyped_##name(const void *input, void *output)                                         \
+    {                                                                                                        \
+        call_##name(input, output);                                                                          \
+    }                                                                                                        \
+    _Static_assert(sizeof(name##_input) <= MOST_WORDS * sizeof(union word), "MOST_WORDS");
+FUNCTIONS(UNTYPED)
+
+/* A record as text: "NAME:LETTERS " for each member, with a letter a word, f for a float and i for an
+ * integer, after "NAME " where it is a record itself. */
+#define TEXT(type, name) #name TEXT_##type " "
+#define INNER_TEXT(type, name) #name TEXT_##type " "
+#define TEXT_float ":f"
+#define TEXT_int ":i"
+#define TEXT_Vector ":fff"
+#define TEXT_Sphere ":ffff parameters:ffff more_parameters:ffff tags:iiii"
+#define TEXT_Plane TEXT_Sphere
+#define TEXT_QuadLight ":ffff edge_u:ffff edge_v:ffff area_normal:ffff radiance:ffff"
+#define TEXT_RayRecord " " RAY(INNER_TEXT)
+#define TEXT_HitRecord " " HIT(INNER_TEXT)
+#define TEXT_SegmentRecord " " SEGMENT(INNER_TEXT)
+#define TEXT_MatteRecord " " MATTE(INNER_TEXT)
+
+/* The constants are the further arguments. */
+#define TEST(name_, variant, promise, ...)                                                                   \
+    {                                                                                                        \
+        .name = #name_ variant, .function = #name_,                                                          \
+        .input_words = sizeof(name_##_input) / sizeof(union word),                                           \
+        .output_words = sizeof(name_##_output) / sizeof(union word), .inputs = INPUT_##name_(TEXT),          \
+        .outputs = OUTPUT_##name_(TEXT), .promises = {promise}, .constants = {__VA_ARGS__},                  \
+        .generate = generate_untyped_##name_, .call = call_untyped_##name_,                                  \
+    }
+#define GENERAL(name) TEST(name, "", 0, {0})
 #define NEVER_ENTERED                                                                                        \
     {SPHERES_HOLD_RAYS, 0}, {SPHERES_HOLD_LIGHTS, 0},                                                        \
     {                                                                                                        \
         ENTERED_SPHERES, 0                                                                                   \
     }
+#define TWO_OF_EACH                                                                                          \
+    {SPHERES, 2},                                                                                            \
+    {                                                                                                        \
+        PLANES, 2                                                                                            \
+    }
 
 const struct function_test function_tests[] = {
-    {"divide", "divide", {0}, {{0}}, generate_quotient, call_divide},
-    {"square_root", "square_root", {0}, {{0}}, generate_root, call_square_root},
-    {"unit", "unit", {0}, {{0}}, generate_vector, call_unit},
-    {"hash", "hash", {0}, {{0}}, generate_hash, call_hash},
-    {"sobol_point", "sobol_point", {0}, {{0}}, generate_sobol, call_sobol_point},
-    {"meet_sphere", "meet_sphere", {0}, {{0}}, generate_sphere_ray, call_meet_sphere},
-    {"meet_sphere/never_entered",
-     "meet_sphere",
-     {.never_entered = true},
-     {NEVER_ENTERED},
-     generate_sphere_ray,
-     call_meet_sphere},
-    {"meet_plane", "meet_plane", {0}, {{0}}, generate_plane_ray, call_meet_plane},
-    {"meet_plane/opaque",
-     "meet_plane",
-     {.opaque_planes = true},
-     {{GLASS_PLANES, 0}},
-     generate_plane_ray,
-     call_meet_plane},
-    {"meet_plane/axis_x", "meet_plane", {.axis = 1}, {{PLANE_AXES, 1}}, generate_plane_ray, call_meet_plane},
-    {"meet_plane/axis_y", "meet_plane", {.axis = 2}, {{PLANE_AXES, 2}}, generate_plane_ray, call_meet_plane},
-    {"meet_plane/axis_z", "meet_plane", {.axis = 3}, {{PLANE_AXES, 3}}, generate_plane_ray, call_meet_plane},
-    {"hit_point/sphere", "sphere_hit_point", {0}, {{0}}, generate_sphere_ray, call_sphere_hit_point},
-    {"hit_point/plane", "plane_hit_point", {0}, {{0}}, generate_plane_ray, call_plane_hit_point},
-    {"nearest_hit", "nearest_hit", {0}, {{SPHERES, 2}, {PLANES, 2}}, generate_scene_ray, call_nearest_hit},
-    {"nearest_hit/in_order",
-     "nearest_hit",
-     {.in_order = true},
-     {{SPHERES, 2}, {PLANES, 2}, {MIXED_ORDER, 0}},
-     generate_scene_ray,
-     call_nearest_hit},
-    {"sphere_shadows", "sphere_shadows", {0}, {{0}}, generate_sphere_segment, call_sphere_shadows},
-    {"sphere_shadows/never_entered",
-     "sphere_shadows",
-     {.never_entered = true},
-     {NEVER_ENTERED},
-     generate_sphere_segment,
-     call_sphere_shadows},
-    {"plane_shadows", "plane_shadows", {0}, {{0}}, generate_plane_segment, call_plane_shadows},
-    {"plane_shadows/opaque",
-     "plane_shadows",
-     {.opaque_planes = true},
-     {{GLASS_PLANES, 0}},
-     generate_plane_segment,
-     call_plane_shadows},
-    {"reflect", "reflect", {0}, {{0}}, generate_reflection, call_reflect},
-    {"refract", "refract", {0}, {{0}}, generate_refraction, call_refract},
-    {"fresnel", "fresnel", {0}, {{0}}, generate_refraction, call_fresnel},
-    {"oren_nayar", "oren_nayar", {0}, {{0}}, generate_oren_nayar, call_oren_nayar},
-    {"oren_nayar/lambert",
-     "oren_nayar",
-     {.lambert = true},
-     {{ROUGH, 0}},
-     generate_oren_nayar,
-     call_oren_nayar},
-    {"point_light", "point_light", {0}, {{0}}, generate_point_light, call_point_light},
-    {"quad_light", "quad_light", {0}, {{0}}, generate_quad_light, call_quad_light},
+    GENERAL(divide),
+    GENERAL(root),
+    GENERAL(unit),
+    GENERAL(hash),
+    GENERAL(sobol_point),
+    GENERAL(meet_sphere),
+    TEST(meet_sphere, "/never_entered", .never_entered = true, NEVER_ENTERED),
+    GENERAL(meet_plane),
+    TEST(meet_plane, "/opaque", .opaque_planes = true, {GLASS_PLANES, 0}),
+    TEST(meet_plane, "/axis_x", .axis = 1, {PLANE_AXES, 1}),
+    TEST(meet_plane, "/axis_y", .axis = 2, {PLANE_AXES, 2}),
+    TEST(meet_plane, "/axis_z", .axis = 3, {PLANE_AXES, 3}),
+    TEST(nearest_hit, "", 0, TWO_OF_EACH),
+    TEST(nearest_hit, "/in_order", .in_order = true, TWO_OF_EACH, {MIXED_ORDER, 0}),
+    GENERAL(sphere_shadows),
+    TEST(sphere_shadows, "/never_entered", .never_entered = true, NEVER_ENTERED),
+    GENERAL(plane_shadows),
+    TEST(plane_shadows, "/opaque", .opaque_planes = true, {GLASS_PLANES, 0}),
+    GENERAL(reflect),
+    GENERAL(refract),
+    GENERAL(oren_nayar),
+    TEST(oren_nayar, "/lambert", .lambert = true, {ROUGH, 0}),
+    GENERAL(point_light),
+    GENERAL(quad_light),
 };
 const size_t function_test_count = sizeof function_tests / sizeof *function_tests;

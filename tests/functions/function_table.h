@@ -4,37 +4,44 @@
 #include <stddef.h>
 
 #include "random.h"
-#include "words.h"
+#include "records.h"
+#include "vulkan/pass.h"
 
-/* What a scene does not hold, so that a pipeline specialised to it can be tested on it. */
-struct promises {
-    bool never_entered; /* rays, shading points and lights are outside of spheres */
-    bool opaque_planes; /* no plane is transparent */
-    int axis;           /* planes' normals are along x 1, y 2, z 3, anything 0 */
-    bool lambert;       /* no matte is rough */
-    bool in_order;      /* spheres stand before planes in the scene file */
+/* A word of a record in the device's buffers. */
+union word {
+    float number;
+    int32_t integer;
 };
 
-struct constant {
-    uint32_t id, value;
-};
+enum { MOST_WORDS = 80 }; /* of a record */
 
 enum { COMMON_CONSTANTS = 4, MOST_CONSTANTS = 8 };
 
 /* Of every test that does not set its own: a scene of one sphere and one plane. */
-extern const struct constant common_constants[COMMON_CONSTANTS];
+extern const struct pass_constant common_constants[COMMON_CONSTANTS];
 
 /* A function of the shaders, specialised somehow, and what it must be equal to. */
 struct function_test {
     const char *name;     /* function/variant, where there are several */
-    const char *function; /* call_...() of functions.comp */
+    const char *function; /* of records.h */
+    size_t input_words, output_words;
+    const char *inputs, *outputs; /* their words, see function_table.c */
     struct promises promises;
-    struct constant constants[MOST_CONSTANTS]; /* those with id 0 are not there */
-    void (*generate)(struct random *random, const struct promises *promises, struct word_writer *inputs);
-    void (*call)(const union word *inputs, struct word_writer *outputs); /* of the C reference */
+    struct pass_constant constants[MOST_CONSTANTS]; /* those with id 0 are not there */
+    void (*generate)(struct random *random, void *input);
+    void (*call)(const void *input, void *output); /* of the C reference */
 };
 
 extern const struct function_test function_tests[];
 extern const size_t function_test_count;
+
+/* generate_NAME() draws a case, half of them or more at an edge; call_NAME() does with the C reference what
+ * functions.comp does with the shaders. */
+#define DECLARE(name)                                                                                        \
+    void generate_##name(struct random *random, name##_input *input);                                        \
+    void call_##name(const name##_input *input, name##_output *output);
+FUNCTIONS(DECLARE)
+
+enum { QUAD_LIGHT_SAMPLES = 4 };
 
 #endif

@@ -29,12 +29,6 @@ struct plan {
     struct vulkan_options vulkan;
 };
 
-/* A test's words: their number and names, as its own generator and reference give them. */
-struct layout {
-    size_t input_words, output_words;
-    struct word_name inputs[MOST_WORDS], outputs[MOST_WORDS];
-};
-
 struct result {
     unsigned long differing;
     double device_ns, reference_ns; /* of all cases */
@@ -49,76 +43,66 @@ static uint64_t stream_of(const struct function_test *test)
     return stream;
 }
 
+/* Members of the input that the generator does not set are 0. */
 static void generate(const struct plan *plan, const struct function_test *test, uint64_t number,
-                     struct word_writer *inputs)
+                     union word *input)
 {
     struct random random = random_start(plan->seed, stream_of(test), number);
-    test->generate(&random, &test->promises, inputs);
+    random.promises = test->promises;
+    memset(input, 0, test->input_words * sizeof *input);
+    test->generate(&random, input);
 }
 
-static void learn_layout(const struct plan *plan, const struct function_test *test, struct layout *layout)
-{
-    union word inputs[MOST_WORDS], outputs[MOST_WORDS];
-    struct word_writer writer = {inputs, layout->inputs};
-    generate(plan, test, 0, &writer);
-    layout->input_words = (size_t)(writer.next - inputs);
-    writer = (struct word_writer){outputs, layout->outputs};
-    test->call(inputs, &writer);
-    layout->output_words = (size_t)(writer.next - outputs);
-}
-
-static void print_words(const char *title, const struct word_name *names, const union word *words,
-                        size_t count)
+/* `text` describes the words, see function_table.c. */
+static void print_words(const char *title, const char *text, const union word *words)
 {
     printf("  %s:\n", title);
-    for (size_t i = 0; i < count; ++i) {
-        bool named = i == 0 || names[i].text != names[i - 1].text;
-        if (named)
-            printf("%s    %s =", i == 0 ? "" : "\n", names[i].text);
-        if (names[i].integer)
-            printf(" %" PRId32, (int32_t)words[i].integer);
-        else
-            printf(" %a", (double)words[i].number);
+    while (*text) {
+        size_t length = strcspn(text, ": ");
+        printf("    %.*s%s", (int)length, text, text[length] == ':' ? " =" : "");
+        for (text += length; *text != ' '; ++text)
+            if (*text == 'i')
+                printf(" %" PRId32, (words++)->integer);
+            else if (*text == 'f')
+                printf(" %a", (double)(words++)->number);
+        printf("\n");
+        text += strspn(text, " ");
     }
-    printf("\n");
 }
 
-static void print_failure(const struct plan *plan, const struct function_test *test,
-                          const struct layout *layout, unsigned long number, const union word *inputs,
-                          const union word *outputs, const union word *expected)
+static void print_failure(const struct plan *plan, const struct function_test *test, unsigned long number,
+                          const union word *inputs, const union word *outputs, const union word *expected)
 {
     printf("%s: case %lu differs (--test %s --seed %lu --first %lu --cases 1)\n", test->name, number,
            test->name, plan->seed, number);
-    print_words("inputs", layout->inputs, inputs, layout->input_words);
-    print_words("shader", layout->outputs, outputs, layout->output_words);
-    print_words("C reference", layout->outputs, expected, layout->output_words);
+    print_words("inputs", test->inputs, inputs);
+    print_words("shader", test->outputs, outputs);
+    print_words("C reference", test->outputs, expected);
 }
 
 /* The cases from `first` on, which are in the device's buffers. */
-static void compare(const struct plan *plan, const struct function_test *test, const struct layout *layout,
-                    unsigned long first, size_t count, const struct device *device,
-                    const union word *expected, struct result *result)
+static void compare(const struct plan *plan, const struct function_test *test, unsigned long first,
+                    size_t count, const struct device *device, const union word *expected,
+                    struct result *result)
 {
     for (size_t i = 0; i < count; ++i) {
-        const union word *outputs = (const union word *)device->outputs.mapped + i * layout->output_words;
-        const union word *right = expected + i * layout->output_words;
-        if (memcmp(outputs, right, layout->output_words * sizeof *outputs) == 0)
+        const union word *outputs = (const union word *)device->outputs.mapped + i * test->output_words;
+        const union word *right = expected + i * test->output_words;
+        if (memcmp(outputs, right, test->output_words * sizeof *outputs) == 0)
             continue;
         if (result->differing++ < SHOWN_FAILURES)
-            print_failure(plan, test, layout, first + i,
-                          (const union word *)device->inputs.mapped + i * layout->input_words, outputs,
-                          right);
+            print_failure(plan, test, first + i,
+                          (const union word *)device->inputs.mapped + i * test->input_words, outputs, right);
     }
 }
 
 /* `expected` has room for a batch of outputs. */
-static enum status run_batch(const struct plan *plan, const struct function_test *test,
-                             const struct layout *layout, unsigned long first, size_t count,
-                             struct device *device, union word *expected, struct result *result)
+static enum status run_batch(const struct plan *plan, const struct function_test *test, unsigned long first,
+                             size_t count, struct device *device, union word *expected, struct result *result)
 {
-    struct word_writer writer = {device->inputs.mapped, NULL};
+    union word *inputs = device->inputs.mapped;
     for (size_t i = 0; i < count; ++i)
-        generate(plan, test, first + i, &writer);
+        generate(plan, test, first + i, inputs + i * test->input_words);
     double device_ns, warming_ns;
     enum status status = STATUS_DONE;
     if (first == plan->first) /* drivers compile in the first dispatch */
@@ -130,25 +114,21 @@ static enum status run_batch(const struct plan *plan, const struct function_test
     result->device_ns += device_ns;
 
     double start = clock_ms();
-    const union word *inputs = device->inputs.mapped;
-    writer = (struct word_writer){expected, NULL};
     for (size_t i = 0; i < count; ++i)
-        test->call(inputs + i * layout->input_words, &writer);
+        test->call(inputs + i * test->input_words, expected + i * test->output_words);
     result->reference_ns += (clock_ms() - start) * 1e6;
-    compare(plan, test, layout, first, count, device, expected, result);
+    compare(plan, test, first, count, device, expected, result);
     return STATUS_DONE;
 }
 
 static enum status run_test(const struct plan *plan, const struct function_test *test, struct device *device,
                             union word *expected)
 {
-    struct layout layout;
     struct result result = {0};
-    learn_layout(plan, test, &layout);
-    enum status status = device_load(device, test, layout.input_words, layout.output_words);
+    enum status status = device_load(device, test);
     for (unsigned long done = 0; status == STATUS_DONE && done < plan->cases; done += BATCH) {
         size_t count = plan->cases - done < BATCH ? plan->cases - done : BATCH;
-        status = run_batch(plan, test, &layout, plan->first + done, count, device, expected, &result);
+        status = run_batch(plan, test, plan->first + done, count, device, expected, &result);
     }
     if (status != STATUS_DONE)
         return status;

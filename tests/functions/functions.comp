@@ -1,5 +1,5 @@
-// Calls a function of the renderer's shaders on the inputs of one case. The build defines CALL as one of the
-// call_...() below, the harness compares with what cpu_reference/ makes of the same words.
+// Calls a function of the renderer's shaders on the inputs of one case. The build defines CALL as one of the functions
+// of records.h; the harness compares with what cpu_reference/ makes of the same inputs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -12,223 +12,180 @@
 #include "intersect.glsl"
 #include "shade.glsl"
 #include "dielectric.glsl"
+#include "records.h"
+
+#define PASTE_EXPANDED(a, b) a##b
+#define PASTE(a, b) PASTE_EXPANDED(a, b)
 
 layout(local_size_x = 64) in;
-layout(constant_id = 100) const uint INPUT_WORDS = 1u; // of a case
-layout(constant_id = 101) const uint OUTPUT_WORDS = 1u;
-layout(std430, set = 0, binding = 5) readonly buffer Inputs { uint inputs[]; };
-layout(std430, set = 0, binding = 6) writeonly buffer Outputs { uint outputs[]; };
+layout(std430, set = 0, binding = 5) readonly buffer Inputs { PASTE(CALL, _input) inputs[]; };
+layout(std430, set = 0, binding = 6) writeonly buffer Outputs { PASTE(CALL, _output) outputs[]; };
 
-#include "function_words.glsl"
-
-void call_divide()
+vec3 vec3_of(Vector v)
 {
-    float a = read_real();
-    float b = read_real();
-    write_real(divide(a, b));
+    return vec3(v.x, v.y, v.z);
 }
 
-void call_square_root()
+vec4 vec4_of(Vector4 v)
 {
-    write_real(square_root(read_real()));
+    return vec4(v.x, v.y, v.z, v.w);
 }
 
-void call_unit()
+Vector vector_of(vec3 v)
 {
-    write_vector(unit(read_vector()));
+    return Vector(v.x, v.y, v.z);
 }
 
-void call_hash()
+PackedSurface surface_of(Surface surface)
 {
-    write_integer(hash(read_integer()));
+    return PackedSurface(vec4_of(surface.parameters), vec4_of(surface.more_parameters),
+                         ivec4(surface.tags.x, surface.tags.y, surface.tags.z, surface.tags.w));
 }
 
-void call_sobol_point()
+PackedSphere sphere_of(Sphere sphere)
 {
-    uint seed = read_integer();
-    uint index = read_integer();
-    float u, v;
-    sequence_point(sequence_of(seed), index, u, v);
-    write_real(u);
-    write_real(v);
+    return PackedSphere(vec4_of(sphere.center_radius), surface_of(sphere.surface));
 }
 
-Hit no_hit()
+PackedPlane plane_of(Plane plane)
 {
-    Hit none;
-    none.distance = FARTHEST_HIT;
-    none.surface = -1;
-    none.from_inside = false;
-    none.shape = vec4(0);
-    none.parameters = vec4(0);
-    none.oren_nayar_b = 0.0;
-    none.kind = KIND_MATTE;
-    none.file_order = 0;
-    none.center_offset = vec3(0);
-    none.half_chord = 0.0;
-    return none;
+    return PackedPlane(vec4_of(plane.normal_offset), surface_of(plane.surface));
 }
 
-void write_hit(Hit hit)
+Ray ray_of(RayRecord ray)
 {
-    bool met = hit.surface >= 0;
-    write_integer(uint(met));
-    write_real(met ? hit.distance : 0.0);
-    write_integer(uint(met && hit.from_inside));
+    return Ray(vec3_of(ray.origin), vec3_of(ray.direction), ray.surface, ray.inward != 0);
 }
 
-void write_hit_point(Ray ray, Hit hit)
+Matte matte_of(MatteRecord matte)
+{
+    return Matte(vec3_of(matte.point), vec3_of(matte.normal), vec3_of(matte.ray_direction), matte.cos_out,
+                 matte.surface, matte.inward != 0, matte.a, matte.b);
+}
+
+void call_divide(divide_input i, out divide_output o)
+{
+    o.quotient = divide(i.dividend, i.divisor);
+}
+
+void call_root(root_input i, out root_output o)
+{
+    o.root = square_root(i.square);
+}
+
+void call_unit(unit_input i, out unit_output o)
+{
+    o.unit_vector = vector_of(unit(vec3_of(i.vector)));
+}
+
+void call_hash(hash_input i, out hash_output o)
+{
+    o.hashed = int(hash(uint(i.number)));
+}
+
+void call_sobol_point(sobol_point_input i, out sobol_point_output o)
+{
+    sequence_point(sequence_of(uint(i.seed)), uint(i.index), o.u, o.v);
+}
+
+// All 0 where nothing was met.
+HitRecord record_of(Ray ray, Hit hit)
 {
     vec3 point, normal;
     hit_point(ray, hit, point, normal);
-    bool met = hit.surface >= 0;
-    write_integer(uint(met));
-    write_vector(met ? point : vec3(0));
-    write_vector(met ? normal : vec3(0));
+    if (hit.surface < 0)
+        return HitRecord(0, 0.0, 0, Vector(0, 0, 0), Vector(0, 0, 0));
+    return HitRecord(1, hit.distance, int(hit.from_inside), vector_of(point), vector_of(normal));
 }
 
-Hit meet_read_sphere(Ray ray)
+void call_meet_sphere(meet_sphere_input i, out meet_sphere_output o)
 {
-    hoisted_spheres[0] = read_sphere();
+    hoisted_spheres[0] = sphere_of(i.sphere);
     Hit nearest = no_hit();
-    meet_sphere(ray, 0, nearest);
-    return nearest;
+    meet_sphere(ray_of(i.ray), 0, nearest);
+    o.hit = record_of(ray_of(i.ray), nearest);
 }
 
-Hit meet_read_plane(Ray ray)
+void call_meet_plane(meet_plane_input i, out meet_plane_output o)
 {
-    hoisted_planes[0] = read_plane();
+    hoisted_planes[0] = plane_of(i.plane);
     Hit nearest = no_hit();
-    meet_plane(ray, 0, nearest);
-    return nearest;
+    meet_plane(ray_of(i.ray), 0, nearest);
+    o.hit = record_of(ray_of(i.ray), nearest);
 }
 
-void call_meet_sphere()
+// Its pipeline has two spheres and two planes, those of the other functions one of each.
+void call_nearest_hit(nearest_hit_input i, out nearest_hit_output o)
 {
-    write_hit(meet_read_sphere(read_ray()));
+    hoisted_spheres[0] = sphere_of(i.sphere_0);
+    hoisted_spheres[SPHERES - 1] = sphere_of(i.sphere_1);
+    hoisted_planes[0] = plane_of(i.plane_0);
+    hoisted_planes[PLANES - 1] = plane_of(i.plane_1);
+    Hit nearest = nearest_hit(ray_of(i.ray));
+    o.surface = nearest.surface;
+    o.file_order = nearest.file_order;
+    o.hit = record_of(ray_of(i.ray), nearest);
 }
 
-void call_meet_plane()
+void call_sphere_shadows(sphere_shadows_input i, out sphere_shadows_output o)
 {
-    write_hit(meet_read_plane(read_ray()));
+    hoisted_spheres[0] = sphere_of(i.sphere);
+    o.shadows = int(sphere_shadows(0, vec3_of(i.segment.from), i.segment.surface, i.segment.inward != 0,
+                                   vec3_of(i.segment.direction), i.segment.distance, vec3_of(i.segment.to)));
 }
 
-void call_sphere_hit_point()
+void call_plane_shadows(plane_shadows_input i, out plane_shadows_output o)
 {
-    Ray ray = read_ray();
-    write_hit_point(ray, meet_read_sphere(ray));
+    hoisted_planes[0] = plane_of(i.plane);
+    o.shadows = int(plane_shadows(0, vec3_of(i.segment.from), i.segment.surface, vec3_of(i.segment.to)));
 }
 
-void call_plane_hit_point()
+void call_reflect(reflect_input i, out reflect_output o)
 {
-    Ray ray = read_ray();
-    write_hit_point(ray, meet_read_plane(ray));
+    o.reflected_direction = vector_of(reflected(vec3_of(i.direction), vec3_of(i.normal), i.cos_in));
 }
 
-void call_nearest_hit()
+void call_refract(refract_input i, out refract_output o)
 {
-    Ray ray = read_ray();
-    [[unroll]] for (int i = 0; i < SPHERES; ++i)
-        hoisted_spheres[i] = read_sphere();
-    [[unroll]] for (int i = 0; i < PLANES; ++i)
-        hoisted_planes[i] = read_plane();
-    Hit hit = nearest_hit(ray);
-    write_integer(uint(hit.surface));
-    write_integer(uint(hit.file_order));
-    write_hit(hit);
-    write_hit_point(ray, hit);
+    Refraction refraction = refracted(vec3_of(i.direction), vec3_of(i.normal), i.cos_in, i.eta, i.kappa);
+    o.total = int(refraction.total);
+    o.refracted_direction = vector_of(refraction.total ? vec3(0) : refraction.direction);
+    o.reflectance = refraction.total ? 0.0 : refraction.reflectance;
 }
 
-void call_sphere_shadows()
+void call_oren_nayar(oren_nayar_input i, out oren_nayar_output o)
 {
-    Segment segment = read_segment();
-    hoisted_spheres[0] = read_sphere();
-    bool shadows = sphere_shadows(0, segment.from, segment.surface, segment.inward, segment.direction,
-                                  segment.distance, segment.to);
-    write_integer(uint(shadows));
+    o.factor = matte_factor(matte_of(i.matte), vec3_of(i.to_light), i.cos_in);
 }
 
-void call_plane_shadows()
+void call_point_light(point_light_input i, out point_light_output o)
 {
-    Segment segment = read_segment();
-    hoisted_planes[0] = read_plane();
-    write_integer(uint(plane_shadows(0, segment.from, segment.surface, segment.to)));
-}
-
-void call_reflect()
-{
-    vec3 direction = read_vector();
-    vec3 normal = read_vector();
-    write_vector(reflected(direction, normal, read_real()));
-}
-
-Refraction read_refraction()
-{
-    vec3 direction = read_vector();
-    vec3 normal = read_vector();
-    float cos_in = read_real();
-    float eta = read_real();
-    float kappa = read_real();
-    return refracted(direction, normal, cos_in, eta, kappa);
-}
-
-void call_refract()
-{
-    Refraction refraction = read_refraction();
-    write_integer(uint(refraction.total));
-    write_vector(refraction.total ? vec3(0) : refraction.direction);
-}
-
-void call_fresnel()
-{
-    Refraction refraction = read_refraction();
-    write_integer(uint(refraction.total));
-    write_real(refraction.total ? 0.0 : refraction.reflectance);
-}
-
-void call_oren_nayar()
-{
-    Matte matte = read_matte();
-    vec3 to_light = read_vector();
-    write_real(matte_factor(matte, to_light, read_real()));
-}
-
-void call_point_light()
-{
-    Matte matte = read_matte();
-    vec3 light = read_vector();
-    hoisted_spheres[0] = read_sphere();
-    hoisted_planes[0] = read_plane();
+    hoisted_spheres[0] = sphere_of(i.sphere);
+    hoisted_planes[0] = plane_of(i.plane);
     Tally tally = Tally(0u, 0u, 0u);
     vec3 to_light;
-    write_real(point_irradiance(matte, light, to_light, tally));
-    write_integer(tally.shadow_rays);
-    write_vector(tally.shadow_rays > 0u ? to_light : vec3(0));
+    o.irradiance = point_irradiance(matte_of(i.matte), vec3_of(i.light), to_light, tally);
+    o.shadow_rays = int(tally.shadow_rays);
+    o.to_light = vector_of(tally.shadow_rays > 0u ? to_light : vec3(0));
 }
 
-void call_quad_light()
+void call_quad_light(quad_light_input i, out quad_light_output o)
 {
-    Matte matte = read_matte();
-    PackedQuadLight light;
-    light.corner = read_vec4();
-    light.edge_u = read_vec4();
-    light.edge_v = read_vec4();
-    light.area_normal = read_vec4();
-    light.radiance = read_vec4();
-    hoisted_quad_lights[0] = light;
-    uint seed = read_integer();
-    uint pixel_sample = read_integer();
-    hoisted_spheres[0] = read_sphere();
-    hoisted_planes[0] = read_plane();
+    hoisted_spheres[0] = sphere_of(i.sphere);
+    hoisted_planes[0] = plane_of(i.plane);
+    hoisted_quad_lights[0] =
+        PackedQuadLight(vec4_of(i.light.corner), vec4_of(i.light.edge_u), vec4_of(i.light.edge_v),
+                        vec4_of(i.light.area_normal), vec4_of(i.light.radiance));
     Tally tally = Tally(0u, 0u, 0u);
-    write_vector(quad_radiance(matte, 0, pixel_sample * uint(LIGHT_SAMPLES), seed, tally));
-    write_integer(tally.shadow_rays);
+    o.radiance =
+        vector_of(quad_radiance(matte_of(i.matte), 0, uint(i.pixel_sample * LIGHT_SAMPLES), uint(i.seed), tally));
+    o.shadow_rays = int(tally.shadow_rays);
 }
 
 // The last group's surplus invocations have buffer to read and write.
 void main()
 {
-    next_input = gl_GlobalInvocationID.x * INPUT_WORDS;
-    next_output = gl_GlobalInvocationID.x * OUTPUT_WORDS;
-    CALL();
+    PASTE(CALL, _output) result;
+    PASTE(call_, CALL)(inputs[gl_GlobalInvocationID.x], result);
+    outputs[gl_GlobalInvocationID.x] = result;
 }

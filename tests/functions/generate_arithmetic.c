@@ -1,20 +1,20 @@
 /* Operands and seeds. */
 #include "generate.h"
 
-static uint32_t random_word(struct random *random)
+static int random_word(struct random *random)
 {
     static const uint32_t edges[] = {0, 1, 2, 0x7fffffff, 0x80000000, 0xffffffff, 0x55555555, 0xaaaaaaaa};
     uint32_t word = (uint32_t)(random_bits(random) >> 32);
     switch (random_below(random, 8)) {
     case 0:
-        return edges[random_below(random, sizeof edges / sizeof *edges)];
+        return (int)edges[random_below(random, sizeof edges / sizeof *edges)];
     case 1:
-        return UINT32_C(1) << (word & 31);
+        return (int)(UINT32_C(1) << (word & 31));
     case 2: /* as sample indices are */
     case 3:
-        return word & 0xffff;
+        return (int)(word & 0xffff);
     default:
-        return word;
+        return (int)word;
     }
 }
 
@@ -22,19 +22,19 @@ static uint32_t random_word(struct random *random)
 static float random_operand(struct random *random, int largest_exponent)
 {
     double significand = random_between(random, 1, 2);
-    if (random_below(random, 4) == 0)
+    if (one_in(random, 4))
         significand = random_bool(random) ? 1 : 1 + (double)random_below(random, 64) / 64;
-    float operand = (float)(random_sign(random) *
-                            ldexp(significand, (int)random_below(random, 2 * (unsigned)largest_exponent) -
-                                                   largest_exponent));
-    return random_below(random, 4) == 0 ? random_neighbour(random, operand) : operand;
+    significand *= random_sign(random);
+    int exponent = (int)random_below(random, 2 * (unsigned)largest_exponent) - largest_exponent;
+    float operand = (float)ldexp(significand, exponent);
+    return one_in(random, 4) ? random_neighbour(random, operand) : operand;
 }
 
 /* The quotient is a normal number or 0. */
-void generate_quotient(struct random *random, const struct promises *promises, struct word_writer *inputs)
+void generate_divide(struct random *random, divide_input *input)
 {
-    (void)promises;
-    float dividend = random_operand(random, 62), divisor = random_operand(random, 62);
+    float dividend = random_operand(random, 62);
+    float divisor = random_operand(random, 62);
     switch (random_below(random, 8)) {
     case 0:
         dividend = 0;
@@ -54,13 +54,11 @@ void generate_quotient(struct random *random, const struct promises *promises, s
     default:
         break;
     }
-    put_real(inputs, "dividend", dividend);
-    put_real(inputs, "divisor", divisor);
+    *input = (divide_input){dividend, divisor};
 }
 
-void generate_root(struct random *random, const struct promises *promises, struct word_writer *inputs)
+void generate_root(struct random *random, root_input *input)
 {
-    (void)promises;
     float square = fabsf(random_operand(random, 120));
     switch (random_below(random, 8)) {
     case 0: /* a square but for rounding */
@@ -78,27 +76,24 @@ void generate_root(struct random *random, const struct promises *promises, struc
     default:
         break;
     }
-    put_real(inputs, "square", square);
+    input->square = square;
 }
 
-void generate_vector(struct random *random, const struct promises *promises, struct word_writer *inputs)
+void generate_unit(struct random *random, unit_input *input)
 {
-    (void)promises;
-    struct dvec3 direction = random_below(random, 8) == 0 ? random_axis(random) : random_direction(random);
-    if (random_below(random, 8) == 0)
+    struct dvec3 direction = one_in(random, 8) ? random_axis(random) : random_direction(random);
+    if (one_in(random, 8))
         direction.y *= random_scale(random, 1e-12, 1);
-    put_vector(inputs, "vector", round_vector(dvec3_scale(random_scale(random, 1e-6, 1e6), direction)));
+    input->vector = round_vector(dvec3_scale(random_scale(random, 1e-6, 1e6), direction));
 }
 
-void generate_hash(struct random *random, const struct promises *promises, struct word_writer *inputs)
+void generate_hash(struct random *random, hash_input *input)
 {
-    (void)promises;
-    put_integer(inputs, "x", random_word(random));
+    input->number = random_word(random);
 }
 
-void generate_sobol(struct random *random, const struct promises *promises, struct word_writer *inputs)
+void generate_sobol_point(struct random *random, sobol_point_input *input)
 {
-    (void)promises;
-    put_integer(inputs, "seed", random_word(random));
-    put_integer(inputs, "index", random_word(random));
+    input->seed = random_word(random);
+    input->index = random_word(random);
 }

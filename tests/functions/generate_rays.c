@@ -9,55 +9,33 @@ struct PackedSphere random_sphere(struct random *random)
     return (struct PackedSphere){.center_radius = {center.x, center.y, center.z, radius}};
 }
 
-struct PackedPlane random_plane(struct random *random, const struct promises *promises)
+struct PackedPlane random_plane(struct random *random)
 {
     struct dvec3 direction = random_bool(random) ? random_axis(random) : random_direction(random);
     double sign = random_sign(random);
-    if (promises->axis != 0)
-        direction = (struct dvec3){promises->axis == 1 ? sign : 0, promises->axis == 2 ? sign : 0,
-                                   promises->axis == 3 ? sign : 0};
+    if (random->promises.axis != 0)
+        direction =
+            (struct dvec3){random->promises.axis == 1 ? sign : 0, random->promises.axis == 2 ? sign : 0,
+                           random->promises.axis == 3 ? sign : 0};
     struct vec3 normal = round_vector(direction);
-    float offset = random_below(random, 8) == 0 ? 0 : round_number(random_between(random, -1, 1));
+    float offset = one_in(random, 8) ? 0 : round_number(random_between(random, -1, 1));
     struct PackedPlane plane = {.normal_offset = {normal.x, normal.y, normal.z, offset}};
-    if (!promises->opaque_planes && random_bool(random))
+    if (!random->promises.opaque_planes && random_bool(random))
         plane.surface.tags.SURFACE_KIND = KIND_TRANSPARENT;
     plane.surface.tags.CASTS_SHADOWS =
         plane.surface.tags.SURFACE_KIND == KIND_TRANSPARENT || random_bool(random);
     return plane;
 }
 
+struct dvec3 nearest_to_origin(const struct PackedPlane *plane)
+{
+    return dvec3_scale((double)plane->normal_offset.w, dvec3_unit(widen(vector_of(plane->normal_offset))));
+}
+
 struct dvec3 random_in_plane(struct random *random, const struct PackedPlane *plane, struct dvec3 start,
                              double distance)
 {
     return random_aside(random, dvec3_unit(widen(vector_of(plane->normal_offset))), start, distance);
-}
-
-static void put_ray(struct word_writer *inputs, const struct ray *ray)
-{
-    put_vector(inputs, "ray origin", ray->origin);
-    put_vector(inputs, "ray direction", ray->direction);
-    put_integer(inputs, "ray surface", (uint32_t)ray->surface);
-    put_integer(inputs, "ray inward", ray->inward);
-}
-
-static void put_surface(struct word_writer *inputs, const PackedSurface *surface)
-{
-    put_integer(inputs, "kind", (uint32_t)surface->tags.SURFACE_KIND);
-    put_integer(inputs, "rank", (uint32_t)surface->tags.FILE_ORDER);
-    put_integer(inputs, "tag z", (uint32_t)surface->tags.HOLDS_RAYS);
-    put_integer(inputs, "tag w", (uint32_t)surface->tags.HOLDS_LIGHTS);
-}
-
-void put_sphere(struct word_writer *inputs, const struct PackedSphere *sphere)
-{
-    put_vec4(inputs, "sphere center, radius", sphere->center_radius);
-    put_surface(inputs, &sphere->surface);
-}
-
-void put_plane(struct word_writer *inputs, const struct PackedPlane *plane)
-{
-    put_vec4(inputs, "plane normal, offset", plane->normal_offset);
-    put_surface(inputs, &plane->surface);
 }
 
 /* Rounds the sphere's numbers to a few binary digits. */
@@ -70,13 +48,13 @@ static void snap(struct PackedSphere *sphere, struct dvec3 *center, double *radi
 }
 
 /* A ray to, from, along, beside or within the sphere, which is surface 0. */
-static struct ray ray_at_sphere(struct random *random, struct PackedSphere *sphere)
+static RayRecord ray_at_sphere(struct random *random, struct PackedSphere *sphere)
 {
     struct dvec3 center = widen(vector_of(sphere->center_radius)), normal = random_direction(random);
     double radius = (double)sphere->center_radius.w;
     struct dvec3 on_sphere = dvec3_along(center, radius, normal), tangent = random_tangent(random, normal);
     struct dvec3 origin, direction = random_direction(random);
-    struct ray ray = {.surface = NO_SURFACE};
+    RayRecord ray = {.surface = NO_SURFACE};
     switch (random_below(random, 20)) {
     case 0: /* leaves it */
     case 1:
@@ -137,14 +115,14 @@ static struct ray ray_at_sphere(struct random *random, struct PackedSphere *sphe
     return ray;
 }
 
-static struct ray ray_at_plane(struct random *random, const struct PackedPlane *plane, int surface)
+static RayRecord ray_at_plane(struct random *random, const struct PackedPlane *plane, int surface)
 {
     struct dvec3 normal = dvec3_unit(widen(vector_of(plane->normal_offset)));
     struct dvec3 tangent = random_tangent(random, normal);
-    struct dvec3 on_plane = dvec3_scale((double)plane->normal_offset.w, normal);
-    on_plane = random_in_plane(random, plane, on_plane, random_between(random, -2, 2));
+    struct dvec3 on_plane =
+        random_in_plane(random, plane, nearest_to_origin(plane), random_between(random, -2, 2));
     struct dvec3 origin = random_point(random), direction = random_direction(random);
-    struct ray ray = {.surface = NO_SURFACE};
+    RayRecord ray = {.surface = NO_SURFACE};
     switch (random_below(random, 16)) {
     case 0: /* parallel but for rounding */
         direction = tangent;
@@ -180,71 +158,63 @@ static struct ray ray_at_plane(struct random *random, const struct PackedPlane *
 }
 
 /* Takes back what the specialised pipeline does not know. */
-static void keep_promises(const struct promises *promises, struct PackedSphere *sphere, struct ray *ray)
+static void keep_promises(const struct random *random, struct PackedSphere *sphere, RayRecord *ray)
 {
-    if (promises->never_entered) {
+    if (random->promises.never_entered) {
         sphere->surface.tags.HOLDS_RAYS = sphere->surface.tags.HOLDS_LIGHTS = 0;
         ray->inward = false;
     }
 }
 
-void generate_sphere_ray(struct random *random, const struct promises *promises, struct word_writer *inputs)
+void generate_meet_sphere(struct random *random, meet_sphere_input *input)
 {
-    struct PackedSphere sphere = random_sphere(random);
-    struct ray ray = ray_at_sphere(random, &sphere);
-    keep_promises(promises, &sphere, &ray);
-    put_ray(inputs, &ray);
-    put_sphere(inputs, &sphere);
+    input->sphere = random_sphere(random);
+    input->ray = ray_at_sphere(random, &input->sphere);
+    keep_promises(random, &input->sphere, &input->ray);
 }
 
-void generate_plane_ray(struct random *random, const struct promises *promises, struct word_writer *inputs)
+void generate_meet_plane(struct random *random, meet_plane_input *input)
 {
-    struct PackedPlane plane = random_plane(random, promises);
-    struct ray ray = ray_at_plane(random, &plane, 1);
-    put_ray(inputs, &ray);
-    put_plane(inputs, &plane);
+    input->plane = random_plane(random);
+    input->ray = ray_at_plane(random, &input->plane, 1);
 }
 
-/* Two spheres and two planes, often the same twice, so that there are ties for the ranks to decide. */
-void generate_scene_ray(struct random *random, const struct promises *promises, struct word_writer *inputs)
+/* A ray at a plane that touches the sphere where the ray meets it first. */
+static RayRecord ray_at_tangent_plane(const struct PackedSphere *sphere, struct PackedPlane *plane)
 {
-    struct PackedSphere spheres[2];
-    struct PackedPlane planes[2];
-    for (int i = 0; i < 2; ++i) {
-        spheres[i] = random_sphere(random);
-        planes[i] = random_plane(random, promises);
-    }
-    struct ray ray =
-        random_bool(random) ? ray_at_sphere(random, &spheres[0]) : ray_at_plane(random, &planes[0], 2);
-    keep_promises(promises, &spheres[0], &ray);
+    struct vec3 center = vector_of(sphere->center_radius), normal = vector_of(plane->normal_offset);
+    float radius = sphere->center_radius.w;
+    plane->normal_offset.w = dot(normal, center) + radius;
+    return (RayRecord){
+        .origin = round_vector(dvec3_along(widen(center), 3 * (double)radius, widen(normal))),
+        .direction = negate(normal),
+        .surface = NO_SURFACE,
+    };
+}
+
+/* Two spheres and two planes, often the same twice, so that there are ties for the file order to decide. */
+void generate_nearest_hit(struct random *random, nearest_hit_input *input)
+{
+    PackedSurface *surfaces[] = {&input->sphere_0.surface, &input->sphere_1.surface, &input->plane_0.surface,
+                                 &input->plane_1.surface};
+    input->sphere_0 = random_sphere(random);
+    input->sphere_1 = random_sphere(random);
+    input->plane_0 = random_plane(random);
+    input->plane_1 = random_plane(random);
+    input->ray = random_bool(random) ? ray_at_sphere(random, &input->sphere_0)
+                                     : ray_at_plane(random, &input->plane_0, 2);
     if (random_bool(random))
-        spheres[1] = spheres[0];
+        input->sphere_1 = input->sphere_0;
     if (random_bool(random))
-        planes[1] = planes[0];
-    if (random_below(random, 4) == 0 &&
-        ray.surface == NO_SURFACE) { /* a plane through the sphere's near pole */
-        layout_vec4 shape = spheres[0].center_radius;
-        layout_vec4 *plane = &planes[0].normal_offset;
-        ray.direction = (struct vec3){-plane->x, -plane->y, -plane->z};
-        ray.origin =
-            round_vector(dvec3_along(widen(vector_of(shape)), 3 * (double)shape.w, widen(vector_of(*plane))));
-        plane->w = dot(vector_of(*plane), vector_of(shape)) + shape.w;
+        input->plane_1 = input->plane_0;
+    if (one_in(random, 4) && input->ray.surface == NO_SURFACE)
+        input->ray = ray_at_tangent_plane(&input->sphere_0, &input->plane_0);
+    for (int i = 0; i < 4; ++i)
+        surfaces[i]->tags.FILE_ORDER = i;
+    for (unsigned i = 3; i > 0 && !random->promises.in_order; --i) {
+        unsigned other = random_below(random, i + 1);
+        int file_order = surfaces[i]->tags.FILE_ORDER;
+        surfaces[i]->tags.FILE_ORDER = surfaces[other]->tags.FILE_ORDER;
+        surfaces[other]->tags.FILE_ORDER = file_order;
     }
-    int ranks[4] = {0, 1, 2, 3};
-    if (!promises->in_order)
-        for (unsigned i = 3; i > 0; --i) {
-            unsigned other = random_below(random, i + 1);
-            int file_order = ranks[i];
-            ranks[i] = ranks[other];
-            ranks[other] = file_order;
-        }
-    for (int i = 0; i < 2; ++i) {
-        spheres[i].surface.tags.FILE_ORDER = ranks[i];
-        planes[i].surface.tags.FILE_ORDER = ranks[2 + i];
-    }
-    put_ray(inputs, &ray);
-    put_sphere(inputs, &spheres[0]);
-    put_sphere(inputs, &spheres[1]);
-    put_plane(inputs, &planes[0]);
-    put_plane(inputs, &planes[1]);
 }

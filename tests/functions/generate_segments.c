@@ -1,31 +1,20 @@
 /* Ways from surface points to light points. */
 #include "generate.h"
 
-static void put_segment(struct word_writer *inputs, const struct segment *segment)
-{
-    put_vector(inputs, "from", segment->from);
-    put_vector(inputs, "to", segment->to);
-    put_vector(inputs, "direction", segment->direction);
-    put_real(inputs, "length", segment->length);
-    put_integer(inputs, "surface", (uint32_t)segment->surface);
-    put_integer(inputs, "inward", segment->inward);
-}
-
 /* As the renderer does it; a light as near as this does not shine. */
-static void connect(struct segment *segment)
+static SegmentRecord connect(struct dvec3 from_point, struct dvec3 to_point, int surface, bool inward)
 {
-    struct vec3 way = subtract(segment->to, segment->from);
+    struct vec3 from = round_vector(from_point), to = round_vector(to_point), way = subtract(to, from);
     if (!(dot(way, way) > (real)NEAREST_LIGHT_SQUARED)) {
-        segment->to = (struct vec3){0.5f, -0.25f, 2};
-        segment->from = (struct vec3){-0.75f, 0.25f, 1};
-        way = subtract(segment->to, segment->from);
+        to = (struct vec3){0.5f, -0.25f, 2};
+        from = (struct vec3){-0.75f, 0.25f, 1};
+        way = subtract(to, from);
     }
-    segment->length = square_root(dot(way, way));
-    segment->direction = scale(1 / segment->length, way);
+    real length = square_root(dot(way, way));
+    return (SegmentRecord){from, to, scale(1 / length, way), length, surface, inward};
 }
 
-void generate_sphere_segment(struct random *random, const struct promises *promises,
-                             struct word_writer *inputs)
+void generate_sphere_shadows(struct random *random, sphere_shadows_input *input)
 {
     struct PackedSphere sphere = random_sphere(random);
     struct dvec3 center = widen(vector_of(sphere.center_radius)), normal = random_direction(random);
@@ -33,16 +22,17 @@ void generate_sphere_segment(struct random *random, const struct promises *promi
     struct dvec3 on_sphere = dvec3_along(center, radius, normal), tangent = random_tangent(random, normal);
     struct dvec3 inside = random_away(random, center, radius * random_between(random, 0, 1));
     struct dvec3 from = random_point(random), to = random_point(random);
-    struct segment segment = {.surface = NO_SURFACE};
+    int surface = NO_SURFACE;
+    bool inward = false;
     switch (random_below(random, 20)) {
     case 0: /* leaves it */
         from = on_sphere;
-        segment.surface = 0;
+        surface = 0;
         break;
     case 1: /* leaves it inward to a light inside, or passes through */
         from = on_sphere;
-        segment.surface = 0;
-        segment.inward = true;
+        surface = 0;
+        inward = true;
         if (random_bool(random))
             to = inside;
         sphere.surface.tags.HOLDS_LIGHTS = 1;
@@ -50,8 +40,8 @@ void generate_sphere_segment(struct random *random, const struct promises *promi
     case 2: /* leaves it and grazes */
         from = on_sphere;
         to = dvec3_along(from, radius * random_scale(random, 1e-3, 1e3), tangent);
-        segment.surface = 0;
-        segment.inward = random_bool(random);
+        surface = 0;
+        inward = random_bool(random);
         break;
     case 3: /* passes as a tangent */
     case 4:
@@ -83,7 +73,7 @@ void generate_sphere_segment(struct random *random, const struct promises *promi
         break;
     case 10: /* from a point on it that belongs to another surface */
         from = on_sphere;
-        segment.surface = 5;
+        surface = 5;
         sphere.surface.tags.HOLDS_RAYS = random_bool(random);
         break;
     case 11: /* ends before it */
@@ -94,27 +84,22 @@ void generate_sphere_segment(struct random *random, const struct promises *promi
         to = dvec3_along(center, radius * random_between(random, 0, 1.2), normal);
         to = dvec3_along(from, random_between(random, 0.5, 3), dvec3_subtract(to, from));
     }
-    if (promises->never_entered) {
+    if (random->promises.never_entered) {
         sphere.surface.tags.HOLDS_RAYS = sphere.surface.tags.HOLDS_LIGHTS = 0;
-        segment.inward = false;
+        inward = false;
     }
-    segment.from = round_vector(from);
-    segment.to = round_vector(to);
-    connect(&segment);
-    put_segment(inputs, &segment);
-    put_sphere(inputs, &sphere);
+    *input = (sphere_shadows_input){connect(from, to, surface, inward), sphere};
 }
 
-void generate_plane_segment(struct random *random, const struct promises *promises,
-                            struct word_writer *inputs)
+void generate_plane_shadows(struct random *random, plane_shadows_input *input)
 {
-    struct PackedPlane plane = random_plane(random, promises);
+    struct PackedPlane plane = random_plane(random);
     struct dvec3 normal = dvec3_unit(widen(vector_of(plane.normal_offset)));
-    struct dvec3 on_plane = dvec3_scale((double)plane.normal_offset.w, normal);
-    on_plane = random_in_plane(random, &plane, on_plane, random_between(random, -2, 2));
+    struct dvec3 on_plane =
+        random_in_plane(random, &plane, nearest_to_origin(&plane), random_between(random, -2, 2));
     struct dvec3 from = random_point(random), to = random_point(random);
     double height = random_signed(random, 1e-9, 1e-3);
-    struct segment segment = {.surface = NO_SURFACE};
+    int surface = NO_SURFACE;
     switch (random_below(random, 10)) {
     case 0: /* light on it but for rounding */
         to = on_plane;
@@ -124,7 +109,7 @@ void generate_plane_segment(struct random *random, const struct promises *promis
         break;
     case 2: /* leaves it */
         from = on_plane;
-        segment.surface = 1;
+        surface = 1;
         break;
     case 3: /* from a point on it that belongs to another surface */
         from = on_plane;
@@ -136,9 +121,5 @@ void generate_plane_segment(struct random *random, const struct promises *promis
     default:
         break;
     }
-    segment.from = round_vector(from);
-    segment.to = round_vector(to);
-    connect(&segment);
-    put_segment(inputs, &segment);
-    put_plane(inputs, &plane);
+    *input = (plane_shadows_input){connect(from, to, surface, false), plane};
 }

@@ -9,11 +9,21 @@
 #include "real.h"
 #include "scene/vector.h"
 
+/* What the drawn scenes do not hold, so that a pipeline specialised to such scenes can be tested on them. */
+struct promises {
+    bool never_entered; /* rays, shading points and lights are outside of spheres */
+    bool opaque_planes; /* no plane is transparent */
+    int axis;           /* planes' normals are along x 1, y 2, z 3, anything 0 */
+    bool lambert;       /* no matte is rough */
+    bool in_order;      /* spheres stand before planes in the scene file */
+};
+
 /* Random numbers of one case: SplitMix64 (Steele, Lea and Flood, OOPSLA 2014), started anew for every case,
  * so that a case can be had alone. No two of these calls stand in one argument list or initialiser, whose
  * order of evaluation C leaves open: every compiler makes the same cases. */
 struct random {
     uint64_t state;
+    struct promises promises;
 };
 
 static inline uint64_t random_bits(struct random *random)
@@ -26,7 +36,7 @@ static inline uint64_t random_bits(struct random *random)
 
 static inline struct random random_start(uint64_t seed, uint64_t stream, uint64_t index)
 {
-    struct random random = {seed};
+    struct random random = {.state = seed};
     random.state = random_bits(&random) ^ stream;
     random.state = random_bits(&random) ^ index;
     random.state = random_bits(&random);
@@ -52,6 +62,11 @@ static inline double random_between(struct random *random, double low, double hi
 static inline double random_scale(struct random *random, double low, double high)
 {
     return exp2(random_between(random, log2(low), log2(high)));
+}
+
+static inline bool one_in(struct random *random, unsigned count)
+{
+    return random_below(random, count) == 0;
 }
 
 static inline double random_sign(struct random *random)

@@ -133,7 +133,7 @@ static void test_grazing(void **state)
 static void test_no_surface(void **state)
 {
     (void)state;
-    struct random random = {1};
+    struct random random = {.state = 1};
     for (int i = 0; i < CASES; ++i) {
         double cos_in =
             random_bool(&random) ? random_scale(&random, 1e-12, 1) : random_between(&random, 0, 1);
@@ -162,7 +162,7 @@ static bool textbook(struct packed_glass glass, double cos_in, double *k_r, doub
 static void test_energy(void **state)
 {
     (void)state;
-    struct random random = {2};
+    struct random random = {.state = 2};
     double worst = 0;
     for (int i = 0; i < CASES; ++i) {
         double ior = random_scale(&random, 0.3, 4);

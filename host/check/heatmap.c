@@ -1,0 +1,79 @@
+#include "check/heatmap.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "check/compare.h"
+#include "image/formats.h"
+
+void viridis(double level, uint8_t *rgb)
+{
+    static const double ramp[5][3] = {
+        {68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
+    level = fmin(fmax(level, 0.0), 1.0);
+    int quarter = level < 1.0 ? (int)(level * 4.0) : 3;
+    double fraction = level * 4.0 - quarter;
+    for (int c = 0; c < 3; c++)
+        rgb[c] = (uint8_t)lround(ramp[quarter][c] + fraction * (ramp[quarter + 1][c] - ramp[quarter][c]));
+}
+
+void heatmap_color(const float *a, const float *b, uint8_t *rgb)
+{
+    double relative_error = 0.0;
+    bool same = true;
+    for (int c = 0; c < 3; c++) {
+        if (memcmp(&a[c], &b[c], sizeof a[c]) == 0)
+            continue;
+        if (!isfinite(a[c]) || !isfinite(b[c])) {
+            memset(rgb, 255, 3);
+            return;
+        }
+        same = false;
+        double magnitude = fmax(fabs((double)a[c]), fabs((double)b[c]));
+        if (magnitude > 0.0)
+            relative_error = fmax(relative_error, fabs((double)a[c] - (double)b[c]) / magnitude);
+    }
+    if (same)
+        memset(rgb, 0, 3);
+    else
+        viridis(relative_error > 0.0 ? 1.0 + log2(relative_error) / 24.0 : 0.0, rgb);
+}
+
+struct pair {
+    const struct image *a, *b;
+};
+
+static void encode_difference(const void *context, unsigned y, uint8_t *rgb)
+{
+    const struct pair *pair = context;
+    size_t start = (size_t)y * pair->a->width * 3;
+    for (size_t x = 0; x < pair->a->width; x++)
+        heatmap_color(pair->a->rgb + start + x * 3, pair->b->rgb + start + x * 3, rgb + x * 3);
+}
+
+enum status heatmap_png(unsigned width, unsigned height, const char *description,
+                        void (*encode_row)(const void *context, unsigned y, uint8_t *rgb),
+                        const void *context, const char *path)
+{
+    const struct png_text texts[] = {{"Software", "vkwhitted"}, {"Description", description}};
+    const struct png_source source = {
+        .width = width,
+        .height = height,
+        .transfer = TRANSFER_SRGB,
+        .texts = texts,
+        .text_count = (int)(sizeof texts / sizeof texts[0]),
+        .encode_row = encode_row,
+        .context = context,
+    };
+    return png_write(&source, path);
+}
+
+enum status heatmap_write(const struct image *a, const struct image *b, const char *path)
+{
+    if (!image_same_size(a, b))
+        return STATUS_REFUSED;
+    return heatmap_png(a->width, a->height,
+                       "largest relative error of a pixel's channels, logarithmic: violet 2^-24, blue 2^-18, "
+                       "teal 2^-12, green 2^-6, yellow 1; black: same bits; white: not finite",
+                       encode_difference, &(struct pair){a, b}, path);
+}

@@ -1,0 +1,28 @@
+#ifndef VKWHITTED_CHECK_HEATMAP_H
+#define VKWHITTED_CHECK_HEATMAP_H
+
+#include <stdint.h>
+
+#include "image/image.h"
+
+/* The colour of level in [0, 1], clamped: viridis (Stefan van der Walt and Nathaniel Smith, CC0) at its
+ * quarters; perceived lightness grows evenly along it. */
+void viridis(double level, uint8_t *rgb);
+
+/* Writes an 8-bit PNG (whole or not at all, see output_file.h) that is made row by row; the file says the
+ * description. STATUS_UNABLE (reported) where it cannot be written. */
+enum status heatmap_png(unsigned width, unsigned height, const char *description,
+                        void (*encode_row)(const void *context, unsigned y, uint8_t *rgb),
+                        const void *context, const char *path);
+
+/* The 8-bit colour of the difference between two pixels: the largest relative error over the channels,
+ * |a - b| / max(|a|, |b|), on a logarithmic scale in the colours of viridis. Dark violet is 2^-24 (half a
+ * unit in the last place of a float) or less, blue 2^-18, teal 2^-12, green 2^-6, yellow 1 or more. Black:
+ * the same bits; white: not the same bits, and not finite on one side at least. */
+void heatmap_color(const float *a, const float *b, uint8_t *rgb);
+
+/* Writes the colours of the pixels' differences with heatmap_png(); STATUS_REFUSED (reported) where the sizes
+ * differ. */
+enum status heatmap_write(const struct image *a, const struct image *b, const char *path);
+
+#endif

@@ -1,0 +1,193 @@
+#include "cli/command_line.h"
+
+#include <getopt.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/output_file.h"
+#include "cli/option_table.h"
+
+static enum status read_command(const char *name, struct options *options)
+{
+    char names[COMMAND_NAMES];
+    for (int i = 0; i < COMMAND_COUNT; ++i)
+        if (strcmp(name, commands[i].name) == 0) {
+            options->command = (enum command_id)i;
+            return STATUS_DONE;
+        }
+    log_error("%s: expected a command: %s; see 'vkwhitted --help'", name, command_names(~0u, names));
+    return STATUS_REFUSED;
+}
+
+enum { LONG_OPTIONS = 256 }; /* getopt_long() returns a letter, or this plus the index of the option */
+
+/* What getopt_long() did not take: an option that is not there, or one without its value (or with one too
+ * many). */
+static enum status refuse_option(char **words, bool lacks_value)
+{
+    const char letter[] = {'-', (char)optopt, '\0'};
+    log_error("%s: %s; see 'vkwhitted --help'",
+              optopt > 0 && optopt < LONG_OPTIONS ? letter : words[optind - 1],
+              lacks_value ? "expected a value behind it" : "no such option, or not in this form");
+    return STATUS_REFUSED;
+}
+
+static const struct option_entry *find_option(int id)
+{
+    const struct option_entry *option = option_table;
+    if (id >= LONG_OPTIONS)
+        return &option_table[id - LONG_OPTIONS];
+    while (option->letter[0] != id)
+        ++option;
+    return option;
+}
+
+/* is_word: the value is a word of its own, not behind a "=" or a letter. */
+static enum status read_option(const struct option_entry *option, const char *value, bool is_word,
+                               struct options *options)
+{
+    const char *dashes = option->name[0] ? "--" : "-";
+    const char *name = option->name[0] ? option->name : option->letter;
+    if (!(option->commands >> options->command & 1)) {
+        log_error("%s takes no option %s%s", commands[options->command].name, dashes, name);
+        return STATUS_REFUSED;
+    }
+    if (!option->read(option, value, (char *)options + option->offset))
+        return STATUS_REFUSED;
+    if (is_word && value[0] == '-') {
+        log_error("%s%s: expected a value behind it; if %s is meant, write %s%s%s%s", dashes, name, value,
+                  dashes, name, option->name[0] ? "=" : "", value);
+        return STATUS_REFUSED;
+    }
+    return STATUS_DONE;
+}
+
+/* Reads the options behind the command; the other words are the scenes. */
+static enum status read_options(int count, char **words, struct options *options)
+{
+    struct option names[OPTION_COUNT_MAX + 1] = {0}, *name = names;
+    char letters[2 * OPTION_COUNT_MAX + 2] = ":"; /* a missing value is then told by ':' */
+    for (int i = 0; option_table[i].help; ++i) {
+        const struct option_entry *option = &option_table[i];
+        if (option->name[0])
+            *name++ = (struct option){option->name, option->value ? required_argument : no_argument, NULL,
+                                      LONG_OPTIONS + i};
+        strcat(strcat(letters, option->letter), option->letter[0] && option->value ? ":" : "");
+    }
+    opterr = 0; /* the messages are refuse_option()'s */
+    enum status status = STATUS_DONE;
+    while (status == STATUS_DONE && !options->help && !options->version) {
+        int id = getopt_long(count, words, letters, names, NULL);
+        if (id == -1)
+            break;
+        if (id == '?' || id == ':')
+            return refuse_option(words, id == ':');
+        status = read_option(find_option(id), optarg, optarg && optarg == words[optind - 1], options);
+    }
+    options->scenes = words + optind;
+    options->scene_count = (size_t)(count - optind);
+    return status;
+}
+
+/* Takes the column and the row from behind the scene. */
+static enum status read_place(struct options *options)
+{
+    char **words = options->scenes;
+    options->scene_count = 1;
+    if (parse_list(words[1], 0, 1, SCENE_MAX_SIZE, &options->x) &&
+        parse_list(words[2], 0, 1, SCENE_MAX_SIZE, &options->y))
+        return STATUS_DONE;
+    log_error("pixel %s %s: expected the column and the row of a pixel, from 0 at the top left", words[1],
+              words[2]);
+    return STATUS_REFUSED;
+}
+
+static enum status check_consistency(const struct options *options)
+{
+    enum command_id command = options->command;
+    enum precision precision = options->job.precision;
+    size_t scenes = options->scene_count;
+    const char *suffix = options->heatmap ? strrchr(options->heatmap, '.') : NULL;
+    bool cpu = options->backend == BACKEND_CPU, against = options->against != PRECISION_FLOAT;
+    const struct {
+        bool is_so;
+        const char *problem;
+    } rules[] = {
+        {command == COMMAND_DEVICES && scenes > 0, "devices takes no scene"},
+        {command != COMMAND_DEVICES && scenes == 0, "expected a scene file"},
+        {command == COMMAND_RENDER && scenes > 1, "render takes one scene file"},
+        {command == COMMAND_WATCH && scenes > 1, "watch takes one scene file"},
+        {command == COMMAND_WATCH && options->output_count == 0 && !options->window,
+         "watch needs -o FILE where there is no display"},
+        {command == COMMAND_PIXEL && precision == PRECISION_QUAD,
+         "pixel computes in float or double; see --against"},
+        {command == COMMAND_PIXEL && scenes != 3, "pixel takes a scene file, a column and a row"},
+        {precision == PRECISION_QUAD && !cpu, "--precision quad needs --backend cpu"},
+        {precision != PRECISION_FLOAT && (options->job.fast || against),
+         "--fast and --against go with --precision float"},
+        {cpu && options->job.fast, "--fast is a device's pipeline; it does not go with --backend cpu"},
+        {cpu && (options->vulkan.device || options->vulkan.validate),
+         "--device and --validate do not go with --backend cpu"},
+        {cpu && command == COMMAND_CHECK && !against, "check --backend cpu needs --against double or quad"},
+        {against && options->has_tolerance,
+         "--tolerance does not go with --against, which derives a bound for every pixel"},
+        {against && options->job.has_max_error,
+         "--max-error does not go with --against, which judges rounding alone"},
+        {options->heatmap && scenes > 1, "--heatmap takes one scene file"},
+        {options->heatmap && !(suffix && strcasecmp(suffix, ".png") == 0), "--heatmap writes a .png"},
+    };
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; ++i)
+        if (rules[i].is_so) {
+            log_error("%s; see 'vkwhitted --help'", rules[i].problem);
+            return STATUS_REFUSED;
+        }
+    return STATUS_DONE;
+}
+
+/* Whether all outputs can be written, before anything is computed. */
+static enum status check_outputs(const struct options *options)
+{
+    const char *const paths[] = {options->stats, options->json, options->heatmap, options->report,
+                                 options->csv};
+    enum status status = STATUS_DONE;
+    for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
+        status = image_write_check(options->outputs[i]);
+    for (size_t i = 0; i < sizeof paths / sizeof *paths && status == STATUS_DONE; ++i)
+        if (paths[i])
+            status = output_file_check(paths[i]);
+    return status;
+}
+
+enum status command_line_read(int argc, char **argv, struct options *options)
+{
+    *options = (struct options){.argc = argc, .argv = argv, .job = {.max_bounces = -1, .samples = 1}};
+    options->outputs = calloc((size_t)argc, sizeof *options->outputs);
+    if (!options->outputs) {
+        log_error("no memory for the command line");
+        return STATUS_UNABLE;
+    }
+    options->help =
+        strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0;
+    options->version = strcmp(argv[1], "--version") == 0;
+    if (options->help || options->version)
+        return STATUS_DONE;
+    enum status status = read_command(argv[1], options);
+    if (status == STATUS_DONE)
+        status = read_options(argc - 1, argv + 1, options);
+    if (status != STATUS_DONE || options->help || options->version)
+        return status;
+    log_set_verbosity(options->job.quiet ? -1 : options->verbose ? 1 : 0);
+    options->job.count_rays = options->stats != NULL;
+    if (options->command == COMMAND_WATCH && options->output_count == 0)
+        options->window = options->window || getenv("DISPLAY") || getenv("WAYLAND_DISPLAY");
+    status = check_consistency(options);
+    if (status == STATUS_DONE && options->command == COMMAND_PIXEL)
+        status = read_place(options);
+    return status == STATUS_DONE ? check_outputs(options) : status;
+}
+
+void command_line_destroy(struct options *options)
+{
+    free(options->outputs);
+    *options = (struct options){0};
+}

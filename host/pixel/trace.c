@@ -1,0 +1,164 @@
+#include "pixel/trace.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DEVICE, REFERENCE, EXACT, SIDES };
+
+/* An event, whose it is and its place in that tree. */
+struct entry {
+    const struct reference_event *event;
+    int side;
+    size_t place;
+};
+
+/* Orders events by the step they tell of: its ray, its kind and, where a ray has several of that, its facts.
+ */
+static int compare_steps(const struct reference_event *a, const struct reference_event *b)
+{
+    const layout_ivec4 p = a->head.place, q = b->head.place, f = a->head.facts, g = b->head.facts;
+    const int one[] = {p.EVENT_OF_SAMPLE, p.EVENT_BRANCH, p.EVENT_BOUNCES, p.EVENT_KIND, f.x, f.y};
+    const int other[] = {q.EVENT_OF_SAMPLE, q.EVENT_BRANCH, q.EVENT_BOUNCES, q.EVENT_KIND, g.x, g.y};
+    const bool several = p.EVENT_KIND == EVENT_LIGHT || p.EVENT_KIND == EVENT_UNTRACED;
+    for (int i = 0; i < (several ? 6 : 4); ++i)
+        if (one[i] != other[i])
+            return one[i] < other[i] ? -1 : 1;
+    return 0;
+}
+
+/* So too, then by place: branches wrap around after 32 bounces, and steps may share all of the above. */
+static int compare_entries(const void *a, const void *b)
+{
+    const struct entry *p = a, *q = b;
+    const int order = compare_steps(p->event, q->event);
+    return order ? order : (p->place > q->place) - (p->place < q->place);
+}
+
+static int compare_references(const void *a, const void *b)
+{
+    const struct step *p = a, *q = b;
+    return (p->reference > q->reference) - (p->reference < q->reference);
+}
+
+static enum status find_steps(struct pixel_trace *trace)
+{
+    const struct ray_tree *trees[SIDES] = {&trace->device, &trace->reference, &trace->exact};
+    const size_t total = trace->device.count + trace->reference.count + trace->exact.count;
+    struct entry *entries = calloc(total + 1, sizeof *entries), *end = entries;
+    trace->steps = calloc(total + 1, sizeof *trace->steps);
+    trace->step_count = trace->device.count;
+    if (!entries || !trace->steps) {
+        log_error("no memory for %zu events", total);
+        free(entries);
+        return STATUS_UNABLE;
+    }
+    for (int side = 0; side < SIDES; ++side)
+        for (size_t i = 0; i < trees[side]->count; ++i)
+            *end++ = (struct entry){&trees[side]->events[i], side, i};
+    qsort(entries, total, sizeof *entries, compare_entries);
+    for (const struct entry *entry = entries, *first; entry < end;) {
+        const struct reference_event *same[SIDES] = {NULL};
+        for (first = entry; entry < end && !same[entry->side] && !compare_steps(entry->event, first->event);
+             ++entry)
+            same[entry->side] = entry->event;
+        const struct step step = {same[DEVICE], same[REFERENCE], same[EXACT]};
+        if (step.device)
+            trace->steps[step.device - trace->device.events] = step;
+        else if (step.reference)
+            trace->steps[trace->step_count++] = step;
+    }
+    qsort(trace->steps + trace->device.count, trace->step_count - trace->device.count, sizeof *trace->steps,
+          compare_references);
+    free(entries);
+    return STATUS_DONE;
+}
+
+/* The pixel as the picture has it; the reference's without a context. */
+static enum status render_pixel(struct vulkan_context *context, const struct render_plan *plan, double rgb[3])
+{
+    struct rendering rendering;
+    enum status status =
+        context ? render_on_device(context, plan, &rendering) : render_on_cpu(plan, &rendering);
+    if (status != STATUS_DONE)
+        return status;
+    const struct image *image = &rendering.image;
+    for (int c = 0; c < 3; ++c)
+        rgb[c] = image->rgb64 ? image->rgb64[c] : (double)image->rgb[c];
+    image_destroy(&rendering.image);
+    return STATUS_DONE;
+}
+
+/* Whether the tree ends in the picture's pixel; what was not recorded cannot tell. */
+static bool ends_in(const struct ray_tree *tree, const double picture[3])
+{
+    const struct reference_event *last = tree->count > 0 ? &tree->events[tree->count - 1] : NULL;
+    if (!last || last->head.place.EVENT_KIND != EVENT_PIXEL)
+        return tree->beyond > 0;
+    for (int c = 0; c < 3; ++c)
+        if (!event_values_agree(picture[c], last->values[c]))
+            return false;
+    return true;
+}
+
+enum status pixel_trace_create(struct vulkan_context *context, const struct job *job, enum precision against,
+                               struct pixel_trace *trace)
+{
+    const struct render_plan *plan = &job->plan;
+    *trace = (struct pixel_trace){
+        .job = job, .context = context, .against = against, .scale = pack_scale(&job->scene)};
+    enum status status = ray_tree_on_cpu(plan, PRECISION_FLOAT, &trace->reference);
+    if (status == STATUS_DONE && against != PRECISION_FLOAT)
+        status = ray_tree_on_cpu(plan, against, &trace->exact);
+    if (status == STATUS_DONE)
+        status = ray_tree_on_device(context, plan, trace->reference.count + trace->reference.beyond + 1024,
+                                    &trace->device);
+    if (status == STATUS_DONE)
+        status = render_pixel(context, plan, trace->picture);
+    if (status == STATUS_DONE)
+        status = render_pixel(NULL, plan, trace->reference_picture);
+    if (status == STATUS_DONE)
+        status = find_steps(trace);
+    trace->difference = ray_trees_compare(&trace->device, &trace->reference);
+    trace->is_the_pictures =
+        ends_in(&trace->device, trace->picture) && ends_in(&trace->reference, trace->reference_picture);
+    if (status != STATUS_DONE)
+        pixel_trace_destroy(trace);
+    return status;
+}
+
+void pixel_trace_destroy(struct pixel_trace *trace)
+{
+    ray_tree_destroy(&trace->device);
+    ray_tree_destroy(&trace->reference);
+    ray_tree_destroy(&trace->exact);
+    free(trace->steps);
+    *trace = (struct pixel_trace){0};
+}
+
+const char *surface_name(const struct pixel_trace *trace, double surface)
+{
+    const struct packed_scene *packed = &trace->job->packed;
+    int i = (int)surface, plane = i - packed->sphere_count;
+    if (i < 0 || plane >= packed->plane_count)
+        return "nothing";
+    int file_order = plane < 0 ? packed->spheres[i].surface.tags.FILE_ORDER
+                               : packed->planes[plane].surface.tags.FILE_ORDER;
+    return trace->job->scene.objects[file_order].name;
+}
+
+const char *difference_bits(const struct pixel_trace *trace, const struct ray_tree *side,
+                            char text[static BITS_TEXT])
+{
+    const struct event_difference *difference = &trace->difference;
+    double value = event_value(&side->events[difference->event], difference->field, difference->component);
+    float narrow = (float)value;
+    uint64_t bits = 0;
+    uint32_t narrow_bits;
+    memcpy(&bits, &value, sizeof bits);
+    memcpy(&narrow_bits, &narrow, sizeof narrow_bits);
+    const bool wide = trace->job->plan.precision == PRECISION_DOUBLE;
+    snprintf(text, BITS_TEXT, "0x%0*" PRIx64, wide ? 16 : 8, wide ? bits : narrow_bits);
+    return text;
+}

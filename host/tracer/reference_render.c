@@ -1,0 +1,131 @@
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/interrupt.h"
+#include "scene/truncation.h"
+#include "tracer/render.h"
+
+static int thread_count(const struct render_plan *plan)
+{
+    return plan->threads ? (int)plan->threads : (int)sysconf(_SC_NPROCESSORS_ONLN);
+}
+
+/* At most so many rows of the plan's window, from its row y on. */
+static struct reference_window band_of(const struct render_plan *plan, unsigned y, unsigned height)
+{
+    const struct window *window = &plan->window;
+    return (struct reference_window){
+        .x = (int)window->x,
+        .y = (int)(window->y + y),
+        .width = (int)window->width,
+        .height = (int)(window->height - y < height ? window->height - y : height),
+    };
+}
+
+static void copy_band(const struct render_plan *plan, struct reference_window band,
+                      const struct reference_picture *picture, struct image *image)
+{
+    size_t first = (size_t)(band.y - (int)plan->window.y) * image->width;
+    size_t pixels = (size_t)band.width * (size_t)band.height;
+    for (size_t i = 0; i < 3 * pixels; ++i)
+        image->rgb[3 * first + i] = (float)picture->rgb[i];
+    if (image->rgb64)
+        memcpy(image->rgb64 + 3 * first, picture->rgb, 3 * pixels * sizeof *picture->rgb);
+    for (size_t i = 0; image->truncation && i < pixels; ++i)
+        image->truncation[first + i] = (float)truncation_bound(plan->scene, picture->charges[i]);
+}
+
+/* Renders in bands of some rows, so that Ctrl-C is heard. */
+static enum status render_once_on_cpu(void *renderer, const struct render_plan *plan, struct image *image,
+                                      struct progress *progress, double *milliseconds)
+{
+    static void (*const render[])(const struct packed_scene *, struct reference_window, int,
+                                  struct reference_picture *) = {
+        [PRECISION_FLOAT] = reference_render_float,
+        [PRECISION_DOUBLE] = reference_render_double,
+        [PRECISION_QUAD] = reference_render_quad,
+    };
+    struct reference_rays *rays = renderer;
+    const struct window *window = &plan->window;
+    const int threads = thread_count(plan);
+    unsigned band_height = 65536 / window->width + (unsigned)threads;
+    size_t band_pixels = (size_t)window->width * band_height;
+    double *values = calloc(band_pixels * 4, sizeof *values);
+    if (plan->bound_truncation && !image->truncation)
+        image->truncation = allocate_pixels(window, sizeof *image->truncation);
+    if (!values || (plan->bound_truncation && !image->truncation)) {
+        log_error("no memory for %u rows of %u pixels", band_height, window->width);
+        free(values);
+        return STATUS_UNABLE;
+    }
+    struct reference_picture picture = {
+        .rgb = values,
+        .charges = plan->bound_truncation ? values + 3 * band_pixels : NULL,
+    };
+    *milliseconds = 0;
+    for (unsigned y = 0; y < window->height && !interrupt_requested(); y += band_height) {
+        struct reference_window band = band_of(plan, y, band_height);
+        double start = clock_ms();
+        render[plan->precision](plan->scene, band, threads, &picture);
+        *milliseconds += clock_ms() - start;
+        copy_band(plan, band, &picture, image);
+        progress_advance(progress, (uint64_t)band.width * (uint64_t)band.height);
+    }
+    *rays = picture.rays;
+    free(values);
+    return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_DONE;
+}
+
+enum status render_on_cpu(const struct render_plan *plan, struct rendering *rendering)
+{
+    *rendering = (struct rendering){0};
+    return render_repeatedly(render_once_on_cpu, &rendering->rays, plan, rendering);
+}
+
+enum status explain_on_cpu(const struct render_plan *plan, enum precision precision,
+                           struct reference_explanation **explanations)
+{
+    const struct window *window = &plan->window;
+    const int threads = thread_count(plan);
+    const unsigned band_height = 4 * (unsigned)threads; /* so that Ctrl-C is heard */
+    struct reference_explanation *pixels = *explanations = allocate_pixels(window, sizeof *pixels);
+    if (!pixels)
+        return STATUS_UNABLE;
+    struct progress progress;
+    progress_start(&progress, "exact picture", (uint64_t)window->width * window->height, plan->quiet);
+    for (unsigned y = 0; y < window->height && !interrupt_requested(); y += band_height) {
+        struct reference_window band = band_of(plan, y, band_height);
+        struct reference_explanation *first = pixels + (size_t)y * window->width;
+        if (precision == PRECISION_DOUBLE)
+            reference_explain_double(plan->scene, band, threads, first);
+        else
+            reference_explain_quad(plan->scene, band, threads, first);
+        progress_advance(&progress, (uint64_t)band.width * (uint64_t)band.height);
+    }
+    progress_end(&progress);
+    if (!interrupt_requested())
+        return STATUS_DONE;
+    free(pixels);
+    *explanations = NULL;
+    return STATUS_INTERRUPTED;
+}
+
+enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatures)
+{
+    struct reference_picture picture = {
+        .rgb = allocate_pixels(&plan->window, 3 * sizeof(double)),
+        .signatures = *signatures = allocate_pixels(&plan->window, sizeof **signatures),
+    };
+    bool enough = picture.rgb && picture.signatures;
+    if (enough)
+        reference_render_float(plan->scene, band_of(plan, 0, plan->window.height), thread_count(plan),
+                               &picture);
+    free(picture.rgb);
+    if (enough)
+        return STATUS_DONE;
+    free(*signatures);
+    *signatures = NULL;
+    return STATUS_UNABLE;
+}

@@ -1,0 +1,67 @@
+/* A message takes the progress bar's place. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include "base/progress.h"
+#include "base/status.h"
+
+/* Reads what came to the terminal until it is quiet. */
+static void read_terminal(int terminal, char *text, size_t size)
+{
+    struct pollfd wanted = {.fd = terminal, .events = POLLIN};
+    size_t length = 0;
+    while (length + 1 < size && poll(&wanted, 1, 100) > 0) {
+        ssize_t got = read(terminal, text + length, size - length - 1);
+        assert_true(got > 0);
+        length += (size_t)got;
+    }
+    text[length] = '\0';
+}
+
+static void test_message_wipes_the_bar(void **state)
+{
+    (void)state;
+    int terminal = posix_openpt(O_RDWR | O_NOCTTY), standard_error = dup(STDERR_FILENO);
+    assert_true(terminal >= 0 && grantpt(terminal) == 0 && unlockpt(terminal) == 0);
+    int other_end = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+    assert_true(other_end >= 0);
+    char bar[512], message[512], end[512];
+    struct progress progress;
+
+    dup2(other_end, STDERR_FILENO);
+    progress_start(&progress, "testing", 10, false);
+    progress.start_ms -= 1000;
+    progress_advance(&progress, 5);
+    read_terminal(terminal, bar, sizeof bar);
+    log_warning("wait");
+    read_terminal(terminal, message, sizeof message);
+    progress_advance(&progress, 1);
+    read_terminal(terminal, end, sizeof end);
+    progress_end(&progress);
+    read_terminal(terminal, end + strlen(end), sizeof end - strlen(end));
+    dup2(standard_error, STDERR_FILENO);
+
+    assert_non_null(strstr(bar, "testing [####"));
+    assert_string_equal(message, "\r\033[Kvkwhitted: warning: wait\r\n");
+    assert_non_null(strstr(end, "testing [####"));
+    assert_string_equal(end + strlen(end) - 4, "\r\033[K");
+    close(standard_error);
+    close(other_end);
+    close(terminal);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_message_wipes_the_bar)};
+    return cmocka_run_group_tests_name("progress", tests, NULL, NULL);
+}

@@ -1,0 +1,206 @@
+/* What scene_warn() says of a scene, and of which scenes it says nothing. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "scene/warnings.h"
+#include "test_folder.h"
+
+#define HEAD                                                                                                 \
+    "camera: { position: [0, 2, -6], look_at: [0, 2, 0] }\n"                                                 \
+    "image: { width: 60, height: 40 }\n"                                                                     \
+    "materials:\n"                                                                                           \
+    "  - { name: Matte, type: matte, color: [0.5, 0.5, 0.5] }\n"                                             \
+    "  - { name: Mirror, type: mirror }\n"                                                                   \
+    "  - { name: Glass, type: transparent, ior: 1.5 }\n"                                                     \
+    "  - { name: Air, type: transparent, ior: 0.6667 }\n"
+
+#define OVERLAP(place, a, b, others)                                                                         \
+    "vkwhitted: warning: a.yaml:" place ": transparent bodies \"" a "\" and \"" b "\" overlap" others        \
+    ", which the model does not cover; a body wholly inside another is no mistake, if its ior is relative "  \
+    "to that "                                                                                               \
+    "one's (air in glass: 1/1.5)"
+#define SWAP(place)                                                                                          \
+    "vkwhitted: warning: a.yaml:" place                                                                      \
+    ": quad light shines away from every matte surface; swap u and v to turn it round"
+
+/* expected: the one warning, or "". */
+static void check_warning(const char *objects_and_lights, const char *expected)
+{
+    char text[4096], line[256];
+    struct scene scene;
+    snprintf(text, sizeof text, "%s%s", HEAD, objects_and_lights);
+    assert_int_equal(scene_read_text("a.yaml", text, strlen(text), &scene), STATUS_DONE);
+    test_messages_begin();
+    scene_warn(&scene);
+    int lines = test_messages_end(line);
+    assert_string_equal(line, expected);
+    assert_int_equal(lines, expected[0] ? 1 : 0);
+    scene_destroy(&scene);
+}
+
+static void spheres_that_cross(void **state)
+{
+    (void)state;
+    check_warning("objects:\n"
+                  "  - { name: A, type: sphere, center: [0, 0, 4], radius: 1, material: Glass }\n"
+                  "  - { name: B, type: sphere, center: [1, 0, 4], radius: 1, material: Air }\n",
+                  OVERLAP("10:5", "A", "B", ""));
+    check_warning("objects:\n"
+                  "  - { name: A, type: sphere, center: [0, 0, 4], radius: 1, material: Glass }\n"
+                  "  - { name: B, type: sphere, center: [0.5, 0, 4], radius: 0.51, material: Air }\n",
+                  OVERLAP("10:5", "A", "B", ""));
+    check_warning("objects:\n" /* twice the same */
+                  "  - { name: A, type: sphere, center: [0.1, 0.2, 4], radius: 1, material: Glass }\n"
+                  "  - { name: B, type: sphere, center: [0.1, 0.2, 4], radius: 1, material: Glass }\n",
+                  OVERLAP("10:5", "A", "B", ""));
+}
+
+/* Wherever they stand: the first pair is the one that is complete first in the file. */
+static void one_warning_for_many(void **state)
+{
+    (void)state;
+    check_warning("objects:\n"
+                  "  - { name: A, type: sphere, center: [9, 0, 4], radius: 1, material: Glass }\n"
+                  "  - { name: B, type: sphere, center: [6, 0, 4], radius: 1, material: Glass }\n"
+                  "  - { name: C, type: sphere, center: [3, 0, 4], radius: 1, material: Glass }\n"
+                  "  - { name: D, type: sphere, center: [7.5, 0, 4], radius: 1, material: Glass }\n"
+                  "  - { name: E, type: sphere, center: [2, 0, 4], radius: 1, material: Glass }\n",
+                  OVERLAP("12:5", "A", "D", " (and 2 other pairs)"));
+    check_warning("objects:\n"
+                  "  - { name: P, type: plane, point: [0, 0, 5], normal: [0, 0, -1], material: Glass }\n"
+                  "  - { name: S, type: sphere, center: [0, 0, 5.5], radius: 1, material: Glass }\n"
+                  "  - { name: Q, type: plane, point: [0, 0, 9], normal: [0, 1, 1], material: Glass }\n",
+                  OVERLAP("10:5", "P", "S", " (and 1 other pair)"));
+}
+
+static void planes_that_cross(void **state)
+{
+    (void)state;
+    check_warning("objects:\n"
+                  "  - { name: A, type: plane, point: [0, 0, 5], normal: [0, 0, -1], material: Glass }\n"
+                  "  - { name: B, type: plane, point: [0, 4, 0], normal: [0, -1, 0.5], material: Glass }\n",
+                  OVERLAP("10:5", "A", "B", ""));
+    check_warning("objects:\n" /* twice the same */
+                  "  - { name: A, type: plane, point: [0, 0, 5], normal: [0, 0, -1], material: Glass }\n"
+                  "  - { name: B, type: plane, point: [3, 4, 5], normal: [0, 0, -7], material: Glass }\n",
+                  OVERLAP("10:5", "A", "B", ""));
+    check_warning("objects:\n" /* a bubble that breaks through the surface of water */
+                  "  - { name: A, type: plane, point: [0, 0, 5], normal: [0, 0, -1], material: Glass }\n"
+                  "  - { name: B, type: sphere, center: [0, 0, 5.9], radius: 1, material: Air }\n",
+                  OVERLAP("10:5", "A", "B", ""));
+}
+
+static void bodies_inside_bodies(void **state)
+{
+    (void)state;
+    check_warning("objects:\n" /* a bubble in a ball, a ball in that, a bubble in water */
+                  "  - { name: A, type: sphere, center: [0, 0, 4], radius: 1, material: Glass }\n"
+                  "  - { name: B, type: sphere, center: [0.1, 0, 4], radius: 0.5, material: Air }\n"
+                  "  - { name: C, type: sphere, center: [0.1, 0, 4], radius: 0.2, material: Glass }\n"
+                  "  - { name: D, type: plane, point: [0, -2, 0], normal: [0, 1, 0], material: Glass }\n"
+                  "  - { name: E, type: sphere, center: [0, -4, 0], radius: 1, material: Air }\n",
+                  "");
+    check_warning("objects:\n" /* touching, from without and within; opaque in glass */
+                  "  - { name: A, type: sphere, center: [0, 0, 4], radius: 1, material: Glass }\n"
+                  "  - { name: B, type: sphere, center: [2, 0, 4], radius: 1, material: Glass }\n"
+                  "  - { name: C, type: sphere, center: [0.4, 0, 4], radius: 0.6, material: Air }\n"
+                  "  - { name: D, type: sphere, center: [0, 0.6, 4], radius: 0.5, material: Mirror }\n"
+                  "  - { name: E, type: plane, point: [0, -1, 0], normal: [0, 1, 0], material: Glass }\n"
+                  "  - { name: F, type: plane, point: [0, -1, 0], normal: [0, 1, 0], material: Matte }\n",
+                  "");
+}
+
+/* A pane is what is behind two planes that look away from each other. */
+static void panes(void **state)
+{
+    (void)state;
+    for (int count = 2; count <= 8; count *= 2) {
+        char text[4096] = "objects:\n";
+        for (int i = 0; i < count; ++i)
+            snprintf(
+                text + strlen(text), sizeof text - strlen(text),
+                "  - { name: F%d, type: plane, point: [0, 0, %g], normal: [1, 2, -1], material: Glass }\n"
+                "  - { name: B%d, type: plane, point: [0, 0, %g], normal: [-1, -2, 1], material: Glass }\n",
+                i, 1 + 0.4 * i, i, 1.1 + 0.4 * i);
+        check_warning(text, "");
+    }
+}
+
+/* A grid of 27,000 spheres of glass with a bubble in each, of which one crosses: done in a moment. */
+static void many_spheres(void **state)
+{
+    (void)state;
+    enum { SIDE = 30, COUNT = 2 * SIDE * SIDE * SIDE };
+    struct scene scene = {.path = "a.yaml", .material_count = 1, .object_count = COUNT};
+    scene.materials = calloc(1, sizeof *scene.materials);
+    scene.objects = calloc(COUNT, sizeof *scene.objects);
+    assert_true(scene.materials && scene.objects);
+    scene.materials[0].type = MATERIAL_TRANSPARENT;
+    for (int i = 0; i < COUNT; ++i) {
+        int cell = i / 2;
+        scene.objects[i] = (struct scene_object){
+            .name = i == COUNT - 1 ? "Last" : "Other",
+            .type = OBJECT_SPHERE,
+            .sphere = {{cell % SIDE, cell / SIDE % SIDE, cell / SIDE / SIDE}, i % 2 ? 0.25 : 0.5},
+            .place = {i, 1},
+        };
+    }
+    scene.objects[COUNT - 1].sphere.center[0] += 0.3;
+    char line[256];
+    clock_t start = clock();
+    test_messages_begin();
+    scene_warn(&scene);
+    assert_int_equal(test_messages_end(line), 1);
+    assert_non_null(strstr(line, "a.yaml:53999:1: transparent bodies \"Other\" and \"Last\" overlap, which"));
+    assert_true((double)(clock() - start) / CLOCKS_PER_SEC < 5);
+    free(scene.materials);
+    free(scene.objects);
+}
+
+#define FLOOR                                                                                                \
+    "objects:\n  - { name: Floor, type: plane, point: [0, 0, 0], normal: [0, 1, 0], material: Matte }\n"
+#define AND_SPHERE(y, radius, material)                                                                      \
+    "  - { name: S, type: sphere, center: [0, " y ", 4], radius: " radius ", material: " material " }\n"
+#define AND_PLANE(point, normal)                                                                             \
+    "  - { name: P, type: plane, point: " point ", normal: " normal ", material: Matte }\n"
+#define UP "  - { type: quad, corner: [-1, 2, -1], u: [1, 0, 0], v: [0, 0, 1], power: 10 }\n"
+#define DOWN "  - { type: quad, corner: [-1, 2, -1], u: [0, 0, 1], v: [1, 0, 0], power: 10 }\n"
+
+static void lights_that_shine_away(void **state)
+{
+    (void)state;
+    check_warning(FLOOR "lights:\n" UP, SWAP("11:5"));
+    check_warning(FLOOR "lights:\n" DOWN, "");
+    check_warning(FLOOR "lights:\n" DOWN UP UP UP, SWAP("12:5"));
+    check_warning(FLOOR AND_SPHERE("0", "1.9", "Matte") "lights:\n" UP, SWAP("12:5"));
+    check_warning(FLOOR AND_SPHERE("9", "1", "Mirror") "lights:\n" UP, SWAP("12:5"));
+    /* something to shine on: a sphere that reaches up, a ceiling, a wall; or nothing on either side */
+    check_warning(FLOOR AND_SPHERE("0", "2.1", "Matte") "lights:\n" UP, "");
+    check_warning(FLOOR AND_PLANE("[0, 3, 0]", "[0, 1, 0]") "lights:\n" UP, "");
+    check_warning(FLOOR AND_PLANE("[0, 0, 8]", "[0, 0, 1]") "lights:\n" UP, "");
+    check_warning("objects: []\nlights:\n" UP, "");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(spheres_that_cross),
+        cmocka_unit_test(one_warning_for_many),
+        cmocka_unit_test(planes_that_cross),
+        cmocka_unit_test(bodies_inside_bodies),
+        cmocka_unit_test(panes),
+        cmocka_unit_test(many_spheres),
+        cmocka_unit_test(lights_that_shine_away),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
