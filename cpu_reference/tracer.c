@@ -16,7 +16,9 @@ struct sample {
     const struct packed_scene *scene;
     uint32_t seed, index;
     struct vec3 radiance, rounding; /* the rounded sum, and what rounding took from it */
+    real threshold;                 /* rays of smaller weight are left out */
     real charge;                    /* for rays that were not traced, see ROUND_UP */
+    real cut_off;                   /* what of that is for rays that max_bounces cut off */
     struct tally tally;
 };
 
@@ -36,20 +38,18 @@ static void trace_secondary(struct sample *sample, const struct path *path)
     trace(sample, path);
 }
 
-/* The sample's charge if a ray of this weight is not traced either, rounded up. */
-static real charge_with(const struct sample *sample, real weight)
+/* Adds the most that a ray of this weight could have brought, rounded up. */
+static real charge(real charges, const struct sample *sample, real weight)
 {
-    return (sample->charge + weight * (real)sample->scene->view.truncation.RADIANCE_BOUND) * (real)ROUND_UP;
+    return (charges + weight * (real)sample->scene->view.truncation.RADIANCE_BOUND) * (real)ROUND_UP;
 }
 
 /* Whether a ray of this weight is to be traced; where it is not, the sample has been charged for it. */
 static bool is_traced(struct sample *sample, real weight)
 {
-    real charge = charge_with(sample, weight);
-    real left = (real)sample->scene->view.truncation.ALLOWANCE - sample->charge;
-    if (weight > (real)SMALLEST_WEIGHT && charge - sample->charge > (real)LARGEST_SHARE * left)
+    if (weight > (real)SMALLEST_WEIGHT && weight >= sample->threshold)
         return true;
-    sample->charge = charge;
+    sample->charge = charge(sample->charge, sample, weight);
     return false;
 }
 
@@ -124,7 +124,8 @@ static void trace(struct sample *sample, const struct path *path)
         return;
     }
     if (path->bounces == scene->max_bounces) {
-        sample->charge = charge_with(sample, path->weight);
+        sample->charge = charge(sample->charge, sample, path->weight);
+        sample->cut_off = charge(sample->cut_off, sample, path->weight);
         RECORD_UNTRACED(true, UNTRACED_BOUNCES, path->weight, 0, sample->charge);
         return;
     }
@@ -146,6 +147,40 @@ static void trace(struct sample *sample, const struct path *path)
         trace_secondary(sample, &reflected);
 }
 
+/* Whether the finished sample has left out more than it may, and a lower threshold can help. */
+static bool needs_another_attempt(const struct sample *sample)
+{
+    real allowance = (real)sample->scene->view.truncation.ALLOWANCE;
+    return sample->threshold > 0 && sample->charge > allowance && sample->cut_off <= allowance;
+}
+
+/* What is left out falls about as the root of the threshold where rays multiply, and with it where they do
+ * not. */
+static real next_threshold(const struct sample *sample)
+{
+    real allowance = (real)sample->scene->view.truncation.ALLOWANCE;
+    real ratio = (allowance - sample->cut_off) / (sample->charge - sample->cut_off);
+    real threshold = sample->threshold * ratio * ratio * (real)0.25;
+    return threshold > (real)SMALLEST_WEIGHT ? threshold : 0;
+}
+
+/* Traces the sample's tree, again with a lower threshold until what is left out fits the allowance. A primary
+ * ray that is traced again counts as a secondary one. */
+static void trace_sample(struct sample *sample, const struct path *path)
+{
+    sample->threshold = (real)sample->scene->view.truncation.FIRST_THRESHOLD;
+    ++sample->tally.rays.primary;
+    RECORD_ATTEMPT();
+    trace(sample, path);
+    while (needs_another_attempt(sample)) {
+        sample->threshold = next_threshold(sample);
+        sample->radiance = sample->rounding = (struct vec3){0, 0, 0};
+        sample->charge = sample->cut_off = 0;
+        RECORD_ANOTHER_ATTEMPT();
+        trace_secondary(sample, path);
+    }
+}
+
 struct pixel {
     struct vec3 radiance;
     real charges; /* summed over the samples */
@@ -163,8 +198,7 @@ static struct pixel trace_pixel(const struct packed_scene *scene, int x, int y)
             .tally = pixel.tally,
         };
         struct path path = {.ray = camera_ray(scene, x, y, k), .weight = 1};
-        ++sample.tally.rays.primary;
-        trace(&sample, &path);
+        trace_sample(&sample, &path);
         struct vec3 radiance = add(sample.radiance, sample.rounding);
         RECORD(EVENT_SAMPLE, (layout_ivec4){0}, radiance, (struct vec3){0}, sample.charge);
         pixel.radiance = add(pixel.radiance, radiance);

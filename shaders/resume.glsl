@@ -39,7 +39,7 @@ struct SavedPath {
 struct SavedPixel {
     SavedPath path;
     real3 radiance, leaves, rounding;
-    real charge, charges;
+    real threshold, charge, cut_off, charges;
     int pending;
 };
 
@@ -56,7 +56,9 @@ void save(uint place, Pixel pixel, Path path, int pending)
     saved_pixels[place].radiance = pixel.radiance;
     saved_pixels[place].leaves = pixel.leaves;
     saved_pixels[place].rounding = pixel.rounding;
+    saved_pixels[place].threshold = pixel.threshold;
     saved_pixels[place].charge = pixel.charge;
+    saved_pixels[place].cut_off = pixel.cut_off;
     saved_pixels[place].charges = pixel.charges;
     saved_pixels[place].pending = pending;
     for (int i = 0; i < pending; ++i) {
@@ -79,7 +81,9 @@ void load(uint place, inout Pixel pixel, inout Path path, inout int pending)
     pixel.radiance = saved_pixels[place].radiance;
     pixel.leaves = saved_pixels[place].leaves;
     pixel.rounding = saved_pixels[place].rounding;
+    pixel.threshold = saved_pixels[place].threshold;
     pixel.charge = saved_pixels[place].charge;
+    pixel.cut_off = saved_pixels[place].cut_off;
     pixel.charges = saved_pixels[place].charges;
     pending = saved_pixels[place].pending;
     for (int i = 0; i < pending; ++i) {

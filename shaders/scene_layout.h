@@ -61,10 +61,6 @@ typedef struct PackedSurface PackedSurface;
  * the sum one that is rounded up. */
 #define ROUND_UP 1.0000002384185791015625 /* 1 + 2^-22 */
 
-/* A ray is left out on purpose if its charge is at most this share of what is left of the allowance; see
- * cpu_reference/NUMERICS.md. */
-#define LARGEST_SHARE 0.25
-
 /* What both tracers can tell of one pixel: events in the order of the recursion. Each has a head and values: two
  * vectors and a number. */
 #define EVENT_RAY 0      /* values: origin, direction, weight */
@@ -124,6 +120,7 @@ struct EventHead {
 #define SHARED_B y
 #define RADIANCE_BOUND x  /* PackedView.truncation: no ray brings more radiance than this */
 #define ALLOWANCE y       /* what a sample may be charged for rays left out; negative: none is left out */
+#define FIRST_THRESHOLD z /* rays of smaller weight are left out at the first attempt; see NUMERICS.md */
 
 struct PackedSurface {
     LAYOUT_VEC4 parameters;

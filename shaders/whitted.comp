@@ -34,7 +34,9 @@ const bool CHARGES = PRUNES || OUTPUT == OUTPUT_TRUNCATION || RECORDS;
 struct Pixel {
     real3 radiance; // sum over the samples
     real3 leaves, rounding; // of the sample: the rounded sum of what its rays see, and what rounding took from it
-    real charge; // the sample's, for rays that are not traced, see ROUND_UP
+    real threshold; // of the sample: rays of smaller weight are left out
+    real charge; // of the sample, for rays that are not traced, see ROUND_UP
+    real cut_off; // what of that is for rays that MAX_BOUNCES cut off
     real charges; // of the samples before
     uint seed;
     uint sample_index;
@@ -43,25 +45,46 @@ struct Pixel {
 
 #include "resume.glsl"
 
-void charge(inout Pixel pixel, real weight)
+// Adds the most that a ray of this weight could have brought, rounded up.
+real charge(real charges, real weight)
 {
-    exact real sum = (pixel.charge + weight * real(hoisted_view.truncation.RADIANCE_BOUND)) * real(ROUND_UP);
-    pixel.charge = sum;
+    exact real sum = (charges + weight * real(hoisted_view.truncation.RADIANCE_BOUND)) * real(ROUND_UP);
+    return sum;
 }
 
 // Whether a ray of this weight is to be traced; where it is not, the sample has been charged for it.
 bool is_traced(inout Pixel pixel, real weight)
 {
-    bool traced = weight > real(SMALLEST_WEIGHT);
-    if (CHARGES) {
-        real before = pixel.charge;
-        charge(pixel, weight);
-        exact real more = pixel.charge - before;
-        exact real share = real(LARGEST_SHARE) * (real(hoisted_view.truncation.ALLOWANCE) - before);
-        traced = traced && !(PRUNES && more <= share);
-        pixel.charge = traced ? before : pixel.charge;
-    }
+    bool traced = weight > real(SMALLEST_WEIGHT) && !(PRUNES && weight < pixel.threshold);
+    if (CHARGES)
+        pixel.charge = traced ? pixel.charge : charge(pixel.charge, weight);
     return traced;
+}
+
+void begin_attempt(inout Pixel pixel, real threshold)
+{
+    pixel.threshold = threshold;
+    pixel.leaves = real3(0);
+    pixel.rounding = real3(0);
+    pixel.charge = real(0);
+    pixel.cut_off = real(0);
+}
+
+// Whether the finished sample has left out more than it may, and a lower threshold can help.
+bool needs_another_attempt(Pixel pixel)
+{
+    real allowance = real(hoisted_view.truncation.ALLOWANCE);
+    return PRUNES && pixel.threshold > real(0) && pixel.charge > allowance && pixel.cut_off <= allowance;
+}
+
+// What is left out falls about as the root of the threshold where rays multiply, and with it where they do not.
+real next_threshold(Pixel pixel)
+{
+    exact real fits = real(hoisted_view.truncation.ALLOWANCE) - pixel.cut_off;
+    exact real left_out = pixel.charge - pixel.cut_off;
+    exact real ratio = divide(fits, left_out);
+    exact real threshold = pixel.threshold * ratio * ratio * real(0.25);
+    return threshold > real(SMALLEST_WEIGHT) ? threshold : real(0);
 }
 
 Path primary_path(uvec2 position, real sample_x, real sample_y)
@@ -170,7 +193,7 @@ void add_leaf(inout Pixel pixel, Path path, Hit hit, real3 point, real3 normal)
 }
 
 // One turn of the loop traces one ray of the tree. Whether a resumable pipeline has left some of the tree.
-bool trace(inout Pixel pixel, inout Path path, inout int pending)
+bool trace(inout Pixel pixel, inout Path path, inout int pending, Path primary)
 {
     bool goes_on = true;
     uint rays = 0u, leaves = 0u;
@@ -187,7 +210,8 @@ bool trace(inout Pixel pixel, inout Path path, inout int pending)
             if (SECONDARY_RAYS && path.bounces < MAX_BOUNCES)
                 goes_on = bounce(path, pending, pixel, hit, point, normal);
             else if (CHARGES) {
-                charge(pixel, path.weight);
+                pixel.charge = charge(pixel.charge, path.weight);
+                pixel.cut_off = charge(pixel.cut_off, path.weight);
                 emit_untraced(true, UNTRACED_BOUNCES, path.weight, pixel.charge);
             }
         } else {
@@ -196,6 +220,12 @@ bool trace(inout Pixel pixel, inout Path path, inout int pending)
         }
         if (GLASS && SECONDARY_RAYS && !goes_on && pending > 0) {
             pop(path, pending);
+            goes_on = true;
+        }
+        if (PRUNES && !goes_on && needs_another_attempt(pixel)) {
+            begin_attempt(pixel, next_threshold(pixel));
+            begin_attempt_events();
+            path = primary;
             goes_on = true;
         }
         if (goes_on)
@@ -207,15 +237,15 @@ bool trace(inout Pixel pixel, inout Path path, inout int pending)
 }
 
 // Whether the sample is finished, that is, added to the pixel.
-bool render_sample(inout Pixel pixel, Path path, uint place)
+bool render_sample(inout Pixel pixel, Path primary, uint place)
 {
+    Path path = primary;
     int pending = 0;
-    pixel.leaves = real3(0);
-    pixel.rounding = real3(0);
-    pixel.charge = real(0);
+    begin_attempt(pixel, PRUNES ? real(hoisted_view.truncation.FIRST_THRESHOLD) : real(0));
+    begin_sample_events();
     if (RESUMABLE && sample_goes_on)
         load(place, pixel, path, pending);
-    if (trace(pixel, path, pending)) {
+    if (trace(pixel, path, pending, primary)) {
         save(place, pixel, path, pending);
         return false;
     }
@@ -262,7 +292,7 @@ void store(uint place, real3 value, Tally tally)
 // tally.
 real3 render_pixel(uvec2 position, uint place, out Tally tally)
 {
-    Pixel pixel = Pixel(real3(0), real3(0), real3(0), real(0), real(0), 0u, 0u, Tally(0u, 0u, 0u));
+    Pixel pixel = Pixel(real3(0), real3(0), real3(0), real(0), real(0), real(0), real(0), 0u, 0u, Tally(0u, 0u, 0u));
     real3 left = real3(0);
     if (SAMPLES > 1 || RESUMABLE)
         left = stored(place);

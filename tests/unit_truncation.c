@@ -130,6 +130,28 @@ static void several_samples(void **state)
     check_scene(SOURCE_DIR "/scenes/hard/diamond.yaml", 3);
 }
 
+/* Cost follows the light: four panes of glass have millions of rays a pixel with 24 bounces, and 2^200 with
+ * 200. */
+static void few_rays_for_little_light(void **state)
+{
+    (void)state;
+    struct scene scene = test_read("tests/scenes/panes.yaml");
+    struct picture_settings settings = test_settings(&scene);
+    settings.max_bounces = 200;
+    settings.has_max_error = true;
+    settings.max_error = 1e-2;
+    struct packed_scene packed = pack(&scene, settings);
+    struct rendering reference = render(&packed, false), device = render(&packed, true);
+    check_same("panes", &device, &reference);
+    for (size_t i = 0; i < 72 * 48; ++i)
+        assert_true((double)reference.image.truncation[i] <= 1e-2);
+    assert_true(reference.rays.secondary < 300 * reference.rays.primary);
+    image_destroy(&reference.image);
+    image_destroy(&device.image);
+    pack_destroy(&packed);
+    scene_destroy(&scene);
+}
+
 /* On facing mirrors most of the work is in what nobody sees. */
 static void half_of_the_rays(void **state)
 {
@@ -219,6 +241,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shipped_scenes),
         cmocka_unit_test(several_samples),
+        cmocka_unit_test(few_rays_for_little_light),
         cmocka_unit_test(half_of_the_rays),
         cmocka_unit_test(lost_rays_bring_nothing),
     };

@@ -4,6 +4,9 @@
 
 #include "scene/body.h"
 
+/* At the first attempt so many rays may be left out, were they all charged as much as one may be. */
+static const float first_attempt = 16;
+
 /* More than a light of this scene can give, should no better bound be found. */
 static const float unbounded = 0x1p100f;
 
@@ -151,6 +154,9 @@ void truncation_pack(struct packed_scene *scene, double max_error)
         .RADIANCE_BOUND = bounded ? (float)(radiance * (1 + slack)) + darkest : unbounded,
         .ALLOWANCE = bounded && allowance > 0 ? (float)allowance : -1,
     };
+    layout_vec4 *truncation = &scene->view.truncation;
+    if (truncation->ALLOWANCE >= 0)
+        truncation->FIRST_THRESHOLD = truncation->ALLOWANCE / (first_attempt * truncation->RADIANCE_BOUND);
 }
 
 double truncation_bound(const struct packed_scene *scene, double charges)
