@@ -299,6 +299,8 @@ enum status scene_read(const char *path, struct scene *scene)
         free(text);
         return status;
     }
+    if (interrupt_requested())
+        return STATUS_INTERRUPTED;
     if (errno == ENOMEM) {
         log_error("no memory to read the scene file %s", path);
         return STATUS_UNABLE;
@@ -307,7 +309,7 @@ enum status scene_read(const char *path, struct scene *scene)
             errno == EISDIR  ? "is a directory, not a scene file"
             : errno == EFBIG ? "is larger than 16 MiB, not a scene file"
                              : strerror(errno));
-    return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_REFUSED;
+    return STATUS_REFUSED;
 }
 
 void scene_destroy(struct scene *scene)
