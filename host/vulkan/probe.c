@@ -92,7 +92,7 @@ enum status probe_arithmetic(struct vulkan_context *context)
     hostile_operands(seed, operands, PROBES);
     enum status status =
         vulkan_compute(context, &(struct compute_job){
-                                    .pass = {"probe", {arithmetic_probe, sizeof arithmetic_probe}},
+                                    .pass = {.name = "probe", .code = {arithmetic_probe, sizeof arithmetic_probe}},
                                     .input = operands,
                                     .input_size = sizeof operands,
                                     .output = results,
