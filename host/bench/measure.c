@@ -148,7 +148,7 @@ static enum status run_rounds(struct bench *bench)
                          : run_point(point, &bench->image, &point->runs_ms[point->run_count]);
             point->spent_ms += clock_ms() - run_start;
             point->run_count += status == STATUS_DONE;
-            uint64_t now = (uint64_t)(RUNS_SHARE * elapsed);
+            uint64_t now = (uint64_t)((double)RUNS_SHARE * elapsed);
             progress_advance(&bench->progress, now - shown);
             shown = now;
         }

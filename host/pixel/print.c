@@ -57,7 +57,8 @@ static void print_value(const struct pixel_trace *trace, const struct event_fiel
     else if (field->type == FIELD_OBJECT)
         fputs(surface_name(trace, value), stdout);
     else if (names)
-        fputs(value >= 0 && value < MOST_EVENT_NAMES && names[(int)value] ? names[(int)value] : "?", stdout);
+        fputs(value >= 0 && value < (double)MOST_EVENT_NAMES && names[(int)value] ? names[(int)value] : "?",
+              stdout);
     else
         fputs(format_number(value / pow(trace->scale, field->metres), text), stdout);
 }
