@@ -76,8 +76,12 @@ add_cli_tests(output formats same_bits_on_both_backends exr_metadata transfer un
 add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer loops_ended_early
               devices)
 add_cli_tests(check agreement difference tolerance allow heatmap json worst_status)
-add_cli_tests(bench files without_device report chart compare bad_comparison options interrupted)
-set_tests_properties(cli/bench/files cli/bench/compare PROPERTIES TIMEOUT 400)
+add_cli_tests(bench without_device report compare bad_comparison options interrupted)
+set_tests_properties(cli/bench/compare PROPERTIES TIMEOUT 400)
+if(VKWHITTED_TESTS STREQUAL "all") # whole benches, which sanitizers see in the others, too
+    add_cli_tests(bench files chart)
+    set_tests_properties(cli/bench/files PROPERTIES TIMEOUT 400)
+endif()
 add_cli_tests(pixel agreement samples max_bounces max_error broken_k_r broken_shadow broken_normal broken_total
               broken_term broken_picture against json light_samples place options)
 add_cli_tests(interrupt sigint_on_device sigint_on_cpu sigterm)
