@@ -82,8 +82,10 @@ if(VKWHITTED_TESTS STREQUAL "all") # whole benches, which sanitizers see in the 
     add_cli_tests(bench files chart)
     set_tests_properties(cli/bench/files PROPERTIES TIMEOUT 400)
 endif()
-add_cli_tests(pixel agreement samples max_bounces max_error broken_k_r broken_shadow broken_normal broken_total
-              broken_term broken_picture against json light_samples place options)
+add_cli_tests(pixel agreement samples max_bounces max_error against json light_samples place options)
+if(VKWHITTED_TESTS STREQUAL "all")
+    add_cli_tests(pixel broken_k_r broken_shadow broken_normal broken_total broken_term broken_picture)
+endif()
 add_cli_tests(interrupt sigint_on_device sigint_on_cpu sigterm)
 add_cli_tests(watch scene_edits_keep_the_pipeline shader_edits broken_and_repaired broken_at_the_start ways_of_saving
               missing_includes written_slowly quick_saves idle checked_in_the_background checked_in_double validated
