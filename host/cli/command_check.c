@@ -2,7 +2,6 @@
 
 #include <stdlib.h>
 
-#include "base/output_file.h"
 #include "check/heatmap.h"
 #include "check/judge.h"
 #include "tracer/job.h"
@@ -123,11 +122,7 @@ enum status command_check(const struct options *options)
 {
     struct check check = {.options = options};
     enum status status = STATUS_DONE;
-    if (options->heatmap)
-        status = output_file_check(options->heatmap);
-    if (status == STATUS_DONE && options->json)
-        status = output_file_check(options->json);
-    if (status == STATUS_DONE && options->backend == BACKEND_VULKAN)
+    if (options->backend == BACKEND_VULKAN)
         status = vulkan_context_create(&options->vulkan, &check.context);
     if (status != STATUS_DONE)
         return status;

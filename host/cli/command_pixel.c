@@ -1,6 +1,5 @@
 #include "cli/options.h"
 
-#include "base/output_file.h"
 #include "pixel/trace.h"
 
 /* STATUS_DIFFERS where device and reference disagree, or where the picture's pipeline makes another pixel
@@ -26,9 +25,7 @@ enum status command_pixel(const struct options *options)
 {
     struct vulkan_context *context = NULL;
     struct job job;
-    enum status status = options->json ? output_file_check(options->json) : STATUS_DONE;
-    if (status == STATUS_DONE)
-        status = job_create(&options->job, options->scenes[0], &job);
+    enum status status = job_create(&options->job, options->scenes[0], &job);
     if (status != STATUS_DONE)
         return status;
     job.plan.window = (struct window){options->x, options->y, 1, 1};
