@@ -18,7 +18,7 @@ struct reference_window {
 struct reference_picture {
     double *rgb;                /* linear RGB radiance, rounded to double: 3 * width * height */
     uint32_t *signatures;       /* hash of every decision of the ray tree; NULL: not wanted */
-    double *charges;            /* OUTPUT_TRUNCATION of scene_layout.h; NULL: not wanted */
+    double *charges;            /* for rays that were not traced; NULL: not wanted */
     struct reference_rays rays; /* what was traced is added */
 };
 

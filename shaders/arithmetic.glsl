@@ -10,9 +10,11 @@
 #ifdef DOUBLE
 #define real double
 #define real3 dvec3
+#define real4 dvec4
 #else
 #define real float
 #define real3 vec3
+#define real4 vec4
 #endif
 
 #ifdef INEXACT_NATIVE

@@ -12,7 +12,7 @@ struct Event {
 };
 
 // More events than there is room for are counted and not written.
-layout(std430, set = 0, binding = 8) buffer EventBlock {
+layout(std430, set = 0, binding = 10) buffer EventBlock {
     uint event_count, event_room, event_first, event_unused; // event_first: of the sample
     Event events[];
 };
@@ -41,24 +41,24 @@ void emit(int kind, ivec4 facts, real3 first, real3 second, real third)
 #define begin_events(starts)                      \
     if (starts && gl_GlobalInvocationID == uvec3(0)) \
         event_count = 0u;
-#define begin_pixel_events(in_tile) records_pixel = in_tile == uvec2(0)
+#define records(in_tile) records_pixel = in_tile == uvec2(0)
 
 // Those of an attempt at the sample that failed are dropped.
 #define begin_sample_events() \
-    if (records_pixel && !sample_goes_on) \
+    if (records_pixel) \
         event_first = event_count;
 #define begin_attempt_events() \
     if (records_pixel) \
         event_count = event_first;
 
-#define emit_ray(sample_index, path)                                                                       \
-    {                                                                                                      \
+#define emit_ray(when, sample_index, path)                                                                 \
+    if (when) {                                                                                                   \
         event_place = ivec4(0, sample_index, path.branch, path.bounces);                                   \
         emit(EVENT_RAY, ivec4(path.ray.surface, path.ray.inward, 0, 0), path.ray.origin,                   \
              path.ray.direction, path.weight);                                                             \
     }
-#define emit_hit(hit, point, normal)                                                                       \
-    {                                                                                                      \
+#define emit_hit(when, hit, point, normal)                                                                 \
+    if (when) {                                                                                                    \
         bool met = hit.surface >= 0;                                                                       \
         emit(EVENT_HIT, ivec4(hit.surface, hit.from_inside, 0, 0), met ? normal : real3(0),                    \
              met ? point : real3(0), met ? hit.distance : real(0));                                        \
@@ -95,11 +95,11 @@ void note_light(real distance_squared, real distance, real cos_in, real irradian
 const bool RECORDS = false;
 const int NO_QUAD_LIGHTS = 0;
 #define begin_events(starts)
-#define begin_pixel_events(in_tile)
+#define records(in_tile)
 #define begin_sample_events()
 #define begin_attempt_events()
-#define emit_ray(sample_index, path)
-#define emit_hit(hit, point, normal)
+#define emit_ray(when, sample_index, path)
+#define emit_hit(when, hit, point, normal)
 #define emit_split(cos_in, refraction)
 #define emit_untraced(when, why, weight, charge)
 #define emit_leaf(seen, leaf)

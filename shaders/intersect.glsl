@@ -159,29 +159,25 @@ Hit no_hit()
 Hit nearest_hit(Ray ray)
 {
     Hit nearest = no_hit();
-    FOR_EACH(i, SPHERES, meet_sphere(ray, i, nearest);)
-    FOR_EACH(i, PLANES, meet_plane(ray, i, nearest);)
+    FOR_EACH_OBJECT(i, SPHERES, meet_sphere(ray, i, nearest);)
+    FOR_EACH_OBJECT(i, PLANES, meet_plane(ray, i, nearest);)
     return nearest;
 }
 
 // The hit's point, put on the surface, and the unit normal that faces the ray.
 void hit_point(Ray ray, Hit hit, out real3 point, out real3 facing_normal)
 {
-    exact real3 position;
-    exact real3 normal;
-    if (hit.surface < SPHERES) {
-        real3 center = real3(hit.shape.xyz);
-        real radius = real(hit.shape.w);
-        exact real3 from_center = -(hit.center_offset + (hit.from_inside ? -hit.half_chord : hit.half_chord) * ray.direction);
-        normal = unit(from_center);
-        position = center + radius * normal;
-    } else {
-        normal = real3(hit.shape.xyz);
-        position = ray.origin + hit.distance * ray.direction;
-        exact real off = dot3(normal, position) - real(hit.shape.w);
-        position = position - off * normal;
-    }
-    point = position;
+    real3 shape = real3(hit.shape.xyz);
+    real w = real(hit.shape.w);
+    exact real3 from_center = -(hit.center_offset + (hit.from_inside ? -hit.half_chord : hit.half_chord) * ray.direction);
+    exact real3 sphere_normal = unit(from_center);
+    exact real3 on_sphere = shape + w * sphere_normal;
+    exact real3 position = ray.origin + hit.distance * ray.direction;
+    exact real off = dot3(shape, position) - w;
+    exact real3 on_plane = position - off * shape;
+    bool sphere = hit.surface < SPHERES;
+    point = sphere ? on_sphere : on_plane;
+    exact real3 normal = sphere ? sphere_normal : shape;
     facing_normal = hit.from_inside ? -normal : normal;
 }
 
@@ -229,14 +225,18 @@ bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real dista
 {
     bool shadowed = false;
     note_no_blocker();
-    FOR_EACH(i, SPHERES, {
+    FOR_EACH_OBJECT(i, SPHERES, {
         shadowed = sphere_shadows(i, point, surface, inward, to_light, distance, light) || shadowed;
         note_blocker(i, shadowed);
+        if (!PROCESSOR && shadowed) // lavapipe only masks what is skipped
+            return true;
     })
     if (PLANES_SHADOW)
-        FOR_EACH(i, PLANES, {
+        FOR_EACH_OBJECT(i, PLANES, {
             shadowed = plane_shadows(i, point, surface, light) || shadowed;
             note_blocker(SPHERES + i, shadowed);
+            if (!PROCESSOR && shadowed)
+                return true;
         })
     return shadowed;
 }

@@ -1,98 +1,71 @@
-// Ray trees too large for one dispatch. Lavapipe runs an invocation in each lane of a vector. It ends all loops of a
-// vector after 65535 turns, counted together, and reports nothing; so turns are counted here. A resumable pipeline
-// traces a sample for some turns and saves the rest of its tree in buffers, for the next dispatch.
+// What a dispatch leaves when it has used up its turns: the invocation's state, with which the next one goes on.
 
-uint most_rays = 0u, most_leaves = 0u; // of a sample, in this lane
+struct SavedWork {
+    real4 origin_weight, direction_state; // of the path
+    real4 radiance_charges, leaves_charge, rounding_cut_off;
+    real4 lit, threshold; // lit: the light so far, and what one quad light has brought; threshold: in x
+    uvec4 work;  // later, row, flags, pending
+    uvec4 pixel; // sample_index, branch, next light point, signature
+    uvec4 rays; // secondary, shadow
+};
+layout(std430, set = 0, binding = 6) buffer SavedWorks { SavedWork saved_works[]; };
+layout(std430, set = 0, binding = 9) buffer Outcome { uint unfinished; }; // not 0: some invocation is
 
-// Turns of loops. Lavapipe unrolls those over objects and lights where there are 19 of them, and no longer where there
-// are 24; agreement/many_turns holds it to 10.
-const bool UNROLLED = SPHERES + PLANES + POINT_LIGHTS + QUAD_LIGHTS <= 10;
-const uint TURNS_OVER_OBJECTS = UNROLLED ? 0u : uint(SPHERES + PLANES);
-const uint TURNS_OF_A_RAY = 1u + (RAYS_ESCAPE ? 2u : 1u) * TURNS_OVER_OBJECTS;
-const uint TURNS_OF_A_LIGHT_POINT = 1u + TURNS_OVER_OBJECTS;
-const uint TURNS_OF_A_LEAF = (UNROLLED ? 0u : uint(POINT_LIGHTS)) * TURNS_OF_A_LIGHT_POINT +
-                             uint(QUAD_LIGHTS) * (1u + uint(LIGHT_SAMPLES) * TURNS_OF_A_LIGHT_POINT);
-const uint TURNS_OF_A_SAMPLE = 2u + (RESUMABLE ? 2u * uint(STACK_ROOM) : 0u); // and of a row
-// Rays of a sample after which a resumable dispatch traces no more.
-const uint PORTION = 1u + 32768u / (TURNS_OF_A_RAY + TURNS_OF_A_LEAF);
-
-// Whether the driver may have ended loops of this vector. Lanes trace their rays side by side, but shade one after the
-// other where they do it at different turns.
-bool too_many_turns(uint samples)
+bool is_done(Work work)
 {
-    if (TURN_LIMIT == ~0u)
-        return false;
-    uint rays = subgroupMax(most_rays), leaves = min(rays, subgroupAdd(most_leaves));
-    exact float turns = float(TURNS_OF_A_SAMPLE) + float(rays) * float(TURNS_OF_A_RAY) + float(leaves) * float(TURNS_OF_A_LEAF);
-    exact float all_turns = turns * float(ROWS * samples);
-    return all_turns >= float(TURN_LIMIT);
+    return !work.busy && work.later == 0u;
 }
 
-struct SavedPath {
-    real3 origin;
-    real weight;
-    real3 direction;
-    int state;
-    uint branch;
-};
-
-struct SavedPixel {
-    SavedPath path;
-    real3 radiance, leaves, rounding;
-    real threshold, charge, cut_off, charges;
-    int pending;
-};
-
-layout(std430, set = 0, binding = 6) buffer SavedPixels { SavedPixel saved_pixels[]; };
-layout(std430, set = 0, binding = 7) buffer SavedStacks { SavedPath saved_stacks[]; }; // STACK_ROOM a pixel
-
-void save(uint place, Pixel pixel, Path path, int pending)
+void save(Work work)
 {
-    saved_pixels[place].path.origin = path.ray.origin;
-    saved_pixels[place].path.weight = path.weight;
-    saved_pixels[place].path.direction = path.ray.direction;
-    saved_pixels[place].path.state = path_state(path);
-    saved_pixels[place].path.branch = path.branch;
-    saved_pixels[place].radiance = pixel.radiance;
-    saved_pixels[place].leaves = pixel.leaves;
-    saved_pixels[place].rounding = pixel.rounding;
-    saved_pixels[place].threshold = pixel.threshold;
-    saved_pixels[place].charge = pixel.charge;
-    saved_pixels[place].cut_off = pixel.cut_off;
-    saved_pixels[place].charges = pixel.charges;
-    saved_pixels[place].pending = pending;
-    for (int i = 0; i < pending; ++i) {
-        uint entry = place * uint(STACK_ROOM) + uint(i);
-        saved_stacks[entry].origin = stack_origin[i];
-        saved_stacks[entry].weight = stack_weight[i];
-        saved_stacks[entry].direction = stack_direction[i];
-        saved_stacks[entry].state = stack_state[i];
-        saved_stacks[entry].branch = LIGHTS_TELL_BRANCHES ? stack_branch[i] : 0u;
-    }
+    uint i = invocation();
+    saved_works[i].work = uvec4(work.later, work.row, uint(work.busy) | uint(work.fresh) << 1, uint(work.pending));
+    if (is_done(work))
+        return;
+    atomicOr(unfinished, 1u);
+    saved_works[i].origin_weight = real4(work.path.ray.origin, work.path.weight);
+    saved_works[i].direction_state = real4(work.path.ray.direction, packed_state(work.path));
+    saved_works[i].radiance_charges = real4(work.pixel.radiance, work.pixel.charges);
+    saved_works[i].leaves_charge = real4(work.pixel.leaves, work.pixel.charge);
+    saved_works[i].rounding_cut_off = real4(work.pixel.rounding, work.pixel.cut_off);
+    saved_works[i].lit = real4(work.light.sum, work.light.quad_sum);
+    saved_works[i].threshold.x = work.pixel.threshold;
+    saved_works[i].pixel = uvec4(work.pixel.sample_index, work.path.branch, work.light.next, work.pixel.tally.signature);
+    saved_works[i].rays = uvec4(work.pixel.tally.secondary_rays, work.pixel.tally.shadow_rays, 0, 0);
+    if (STACK_IN_REGISTERS)
+        [[unroll]] for (int entry = 0; entry < STACK_ROOM; ++entry)
+            if (entry < work.pending)
+                store_pending(entry, stack_origin[entry], stack_direction[entry], stack_branch[entry]);
 }
 
-void load(uint place, inout Pixel pixel, inout Path path, inout int pending)
+void load(out Work work, uint first_row)
 {
-    path.ray.origin = saved_pixels[place].path.origin;
-    path.ray.direction = saved_pixels[place].path.direction;
-    path.weight = saved_pixels[place].path.weight;
-    set_path_state(path, saved_pixels[place].path.state);
-    path.branch = saved_pixels[place].path.branch;
-    pixel.radiance = saved_pixels[place].radiance;
-    pixel.leaves = saved_pixels[place].leaves;
-    pixel.rounding = saved_pixels[place].rounding;
-    pixel.threshold = saved_pixels[place].threshold;
-    pixel.charge = saved_pixels[place].charge;
-    pixel.cut_off = saved_pixels[place].cut_off;
-    pixel.charges = saved_pixels[place].charges;
-    pending = saved_pixels[place].pending;
-    for (int i = 0; i < pending; ++i) {
-        uint entry = place * uint(STACK_ROOM) + uint(i);
-        stack_origin[i] = saved_stacks[entry].origin;
-        stack_weight[i] = saved_stacks[entry].weight;
-        stack_direction[i] = saved_stacks[entry].direction;
-        stack_state[i] = saved_stacks[entry].state;
-        if (LIGHTS_TELL_BRANCHES)
-            stack_branch[i] = saved_stacks[entry].branch;
-    }
+    uint i = invocation();
+    SavedWork saved = saved_works[i];
+    set_path(work.path, saved.origin_weight, saved.direction_state, saved.pixel.y);
+    work.later = saved.work.x;
+    work.row = saved.work.y;
+    work.busy = (saved.work.z & 1u) != 0u;
+    work.fresh = (saved.work.z & 2u) != 0u;
+    work.pending = int(saved.work.w);
+    work.light.sum = saved.lit.xyz;
+    work.light.quad_sum = saved.lit.w;
+    work.light.next = saved.pixel.z;
+    work.pixel.radiance = saved.radiance_charges.xyz;
+    work.pixel.charges = saved.radiance_charges.w;
+    work.pixel.leaves = saved.leaves_charge.xyz;
+    work.pixel.charge = saved.leaves_charge.w;
+    work.pixel.rounding = saved.rounding_cut_off.xyz;
+    work.pixel.cut_off = saved.rounding_cut_off.w;
+    work.pixel.threshold = saved.threshold.x;
+    work.pixel.seed = pixel_seed(tile_origin + uvec2(gl_GlobalInvocationID.x, first_row + work.row));
+    work.pixel.sample_index = saved.pixel.x;
+    work.pixel.tally = Tally(saved.rays.x, saved.rays.y, saved.pixel.w);
+    if (STACK_IN_REGISTERS)
+        [[unroll]] for (int entry = 0; entry < STACK_ROOM; ++entry) {
+            uint place = uint(entry) * invocations() + i;
+            stack_origin[entry] = stacks[place].origin_weight;
+            stack_direction[entry] = stacks[place].direction_state;
+            stack_branch[entry] = LIGHTS_TELL_BRANCHES ? stack_branches[place] : 0u;
+        }
 }

@@ -39,18 +39,12 @@ typedef struct PackedSurface PackedSurface;
 /* A ray of smaller weight is not traced and a smaller pixel value is 0, for the same reason. */
 #define SMALLEST_WEIGHT 8.077935669463161e-28 /* 2^-90 */
 
-/* What a pixel's three values are: radiance; or, as unsigned integers, 0 and the numbers of secondary and shadow rays
- * that the dispatch has traced, or 0, the path signature (a hash of every decision of the ray tree) and 0; or what
- * rays that were not traced are charged. */
+/* What a pixel's four values are: radiance and what the pixel is charged for rays that were not traced, summed over its
+ * samples (0 unless wanted); or, as unsigned integers, the numbers of secondary and shadow rays, the path signature (a hash
+ * of every decision of the ray tree) and 0, of which one output has the rays and another the signature. */
 #define OUTPUT_RADIANCE 0
 #define OUTPUT_RAYS 1
 #define OUTPUT_SIGNATURE 2
-#define OUTPUT_TRUNCATION 3 /* the charges of the pixel's samples, summed, 0 and 0 */
-
-/* A pixel's first value (an integer where they are integers) where it has none yet: a resumable pipeline has part of its
- * ray tree left; or its loops were, or may have been, ended by the driver. */
-#define UNFINISHED (-1.0)
-#define TOO_LONG (-2.0)
 
 /* What the direction of a ray, and its line projected along the normal of the parallel mirrors that reflect it, may
  * be off by after 1000 bounces, relative: a bounce loses less than 2^-20. */

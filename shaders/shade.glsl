@@ -36,39 +36,52 @@ real point_irradiance(Matte matte, real3 light, out real3 to_light, inout Tally 
     to_light = direction;
     exact real cos_in = dot3(matte.normal, direction);
     exact real irradiance = real(0);
-    if (cos_in > real(0) && distance_squared > real(NEAREST_LIGHT_SQUARED)) {
-        ++tally.shadow_rays;
-        if (!in_shadow(matte.point, matte.surface, matte.inward, direction, distance, light))
-            irradiance = matte_factor(matte, direction, cos_in) * (inverse * inverse);
+    bool faces = cos_in > real(0) && distance_squared > real(NEAREST_LIGHT_SQUARED);
+    if (PROCESSOR || faces) {
+        tally.shadow_rays += uint(faces);
+        bool lit = !in_shadow(matte.point, matte.surface, matte.inward, direction, distance, light);
+        exact real unshadowed = matte_factor(matte, direction, cos_in) * (inverse * inverse);
+        irradiance = faces && lit ? unshadowed : real(0);
     }
     note_light(distance_squared, distance, cos_in, irradiance);
     return irradiance;
 }
 
+// Point k of a quad light: its irradiance times the area that the point sees.
+real quad_point(Matte matte, int i, Sequence sequence, uint first_sample, int k, inout Tally tally)
+{
+    real u, v;
+    sequence_point(sequence, first_sample + uint(k), u, v);
+    exact real3 light = real3(get_quad_light(i).corner.xyz) + u * real3(get_quad_light(i).edge_u.xyz) +
+                        v * real3(get_quad_light(i).edge_v.xyz);
+    real3 to_light;
+    real irradiance = point_irradiance(matte, light, to_light, tally);
+    exact real projected_area = dot3(real3(get_quad_light(i).area_normal.xyz), to_light);
+    bool lit = irradiance > real(0) && projected_area > real(0);
+    note(tally, lit ? 1u : 0u);
+    emit_light(POINT_LIGHTS + i, k, light, projected_area);
+    exact real seen = lit ? irradiance * projected_area : real(0);
+    return seen;
+}
+
 real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout Tally tally)
 {
-    real3 corner = real3(get_quad_light(i).corner.xyz);
-    real3 edge_u = real3(get_quad_light(i).edge_u.xyz);
-    real3 edge_v = real3(get_quad_light(i).edge_v.xyz);
-    real3 area_normal = real3(get_quad_light(i).area_normal.xyz);
-    real3 radiance = real3(get_quad_light(i).radiance.xyz);
     Sequence sequence = sequence_of(seed);
     exact real sum = real(0);
-    for (int k = 0; k < LIGHT_SAMPLES; ++k) {
-        real u, v;
-        sequence_point(sequence, first_sample + uint(k), u, v);
-        exact real3 light = corner + u * edge_u + v * edge_v;
-        real3 to_light;
-        real irradiance = point_irradiance(matte, light, to_light, tally);
-        exact real projected_area = dot3(area_normal, to_light);
-        bool lit = irradiance > real(0) && projected_area > real(0);
-        note(tally, lit ? 1u : 0u);
-        emit_light(POINT_LIGHTS + i, k, light, projected_area);
-        if (lit)
-            sum = sum + irradiance * projected_area;
-    }
-    exact real3 total = radiance * sum;
+    for (int k = 0; k < LIGHT_SAMPLES; ++k)
+        sum = sum + quad_point(matte, i, sequence, first_sample, k, tally);
+    exact real3 total = real3(get_quad_light(i).radiance.xyz) * sum;
     return total;
+}
+
+real3 point_light_radiance(Matte matte, int i, inout Tally tally)
+{
+    real3 to_light;
+    real irradiance = point_irradiance(matte, real3(get_point_light(i).position.xyz), to_light, tally);
+    note(tally, irradiance > real(0) ? 1u : 0u);
+    emit_light(i, 0, real3(get_point_light(i).position.xyz), real(1));
+    exact real3 radiance = irradiance * real3(get_point_light(i).intensity.xyz);
+    return radiance;
 }
 
 // Radiance per unit of albedo / pi.
@@ -76,15 +89,48 @@ real3 direct_light(Matte matte, uint sample_index, uint seed, inout Tally tally)
 {
     exact real3 sum = real3(0);
     if (POINT_LIGHTS > 0) // lavapipe runs the body of an empty loop once, masked
-        FOR_EACH(i, POINT_LIGHTS, {
-            real3 to_light;
-            real irradiance = point_irradiance(matte, real3(get_point_light(i).position.xyz), to_light, tally);
-            note(tally, irradiance > real(0) ? 1u : 0u);
-            emit_light(i, 0, real3(get_point_light(i).position.xyz), real(1));
-            sum = sum + irradiance * real3(get_point_light(i).intensity.xyz);
-        })
+        FOR_EACH_LIGHT(i, POINT_LIGHTS, sum = sum + point_light_radiance(matte, i, tally);)
     if (QUAD_LIGHTS > 0)
-        FOR_EACH(i, QUAD_LIGHTS,
-                 sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), tally);)
+        FOR_EACH_LIGHT(i, QUAD_LIGHTS,
+                       sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), tally);)
     return sum;
+}
+
+// So many points of lights that a matte point takes several turns.
+const uint LIGHT_POINTS = uint(POINT_LIGHTS) + uint(QUAD_LIGHTS) * uint(LIGHT_SAMPLES);
+const bool LIGHTS_TAKE_TURNS = LIGHT_POINTS > LIGHT_POINTS_A_TURN;
+
+// How far a matte point has got.
+struct Lighting {
+    uint next;     // point, of all lights
+    real3 sum;
+    real quad_sum; // of the quad light whose points are being added
+};
+
+void begin_light(out Lighting light)
+{
+    light.next = 0u;
+    light.sum = real3(0);
+    light.quad_sum = real(0);
+}
+
+// Adds the next points. Whether there are more.
+bool light_on(Matte matte, uint sample_index, uint seed, inout Lighting light, inout Tally tally)
+{
+    for (uint turn = 0u; turn < LIGHT_POINTS_A_TURN; ++turn) {
+        int point = int(light.next) - POINT_LIGHTS;
+        if (point < 0) {
+            exact real3 sum = light.sum + point_light_radiance(matte, int(light.next), tally);
+            light.sum = sum;
+        } else if (light.next < LIGHT_POINTS) {
+            int i = point / LIGHT_SAMPLES, k = point % LIGHT_SAMPLES;
+            exact real quad_sum = light.quad_sum + quad_point(matte, i, sequence_of(seed + uint(i)),
+                                                              sample_index * uint(LIGHT_SAMPLES), k, tally);
+            exact real3 sum = light.sum + real3(get_quad_light(i).radiance.xyz) * quad_sum;
+            light.sum = k + 1 == LIGHT_SAMPLES ? sum : light.sum;
+            light.quad_sum = k + 1 == LIGHT_SAMPLES ? real(0) : quad_sum;
+        }
+        light.next = min(light.next + 1u, LIGHT_POINTS);
+    }
+    return light.next < LIGHT_POINTS;
 }

@@ -1,9 +1,9 @@
-// Whitted's recursion ("An Improved Illumination Model for Shaded Display", CACM 23(6), 1980), one invocation a
-// pixel, with an explicit stack that holds only what is pending.
+// Whitted's recursion ("An Improved Illumination Model for Shaded Display", CACM 23(6), 1980), with an explicit stack that
+// holds only what is pending. An invocation renders some pixels, one below the other: first the primary rays, then, in a
+// loop that traces one ray a turn, the pixels that show a mirror or glass, one after the other.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 
 #include "scene.glsl"
 #include "arithmetic.glsl"
@@ -14,86 +14,44 @@
 #include "shade.glsl"
 #include "dielectric.glsl"
 #include "escape.glsl"
-#include "path.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
-layout(std430, set = 0, binding = 5) buffer Picture { real picture[]; }; // the tile, RGB; sums until the last sample
-layout(std430, set = 0, binding = 5) buffer Counts { uint counts[]; }; // the same memory, for outputs that are integers
 layout(push_constant) uniform TileBlock {
     uvec2 origin, size, image_size; // pixels
     uint first_sample, end_sample;  // of SAMPLES, in this dispatch
-    uint goes_on;                   // resumable: not 0 after the first dispatch of a sample
+    uint goes_on;                   // not 0: with what the dispatch before has left
+    uint most_turns;                // of the loop over rays
+    uint threads;                   // that share the dispatch, each with groups that lie together
 } tile;
 uvec2 tile_origin, tile_size, image_size;
-uint first_sample, end_sample;
-bool sample_goes_on;
+uint first_sample, samples_end;
 
-const bool INTEGERS = OUTPUT == OUTPUT_RAYS || OUTPUT == OUTPUT_SIGNATURE;
-const bool CHARGES = PRUNES || OUTPUT == OUTPUT_TRUNCATION || RECORDS;
+#include "pixel.glsl"
+#include "path.glsl"
 
-struct Pixel {
-    real3 radiance; // sum over the samples
-    real3 leaves, rounding; // of the sample: the rounded sum of what its rays see, and what rounding took from it
-    real threshold; // of the sample: rays of smaller weight are left out
-    real charge; // of the sample, for rays that are not traced, see ROUND_UP
-    real cut_off; // what of that is for rays that MAX_BOUNCES cut off
-    real charges; // of the samples before
-    uint seed;
-    uint sample_index;
-    Tally tally;
+// What an invocation has to do, and where it is.
+struct Work {
+    uint later; // a bit for each row that is still to be begun
+    uint row;   // of the pixel that is being rendered
+    bool busy;  // there is such a pixel
+    bool fresh; // its next ray is a primary ray
+    int pending; // rays on the stack
+    Path path;
+    Pixel pixel;
+    Lighting light;
 };
 
 #include "resume.glsl"
 
-// Adds the most that a ray of this weight could have brought, rounded up.
-real charge(real charges, real weight)
+void begin_path(out Path path, uvec2 position, Pixel pixel)
 {
-    exact real sum = (charges + weight * real(hoisted_view.truncation.RADIANCE_BOUND)) * real(ROUND_UP);
-    return sum;
-}
-
-// Whether a ray of this weight is to be traced; where it is not, the sample has been charged for it.
-bool is_traced(inout Pixel pixel, real weight)
-{
-    bool traced = weight > real(SMALLEST_WEIGHT) && !(PRUNES && weight < pixel.threshold);
-    if (CHARGES)
-        pixel.charge = traced ? pixel.charge : charge(pixel.charge, weight);
-    return traced;
-}
-
-void begin_attempt(inout Pixel pixel, real threshold)
-{
-    pixel.threshold = threshold;
-    pixel.leaves = real3(0);
-    pixel.rounding = real3(0);
-    pixel.charge = real(0);
-    pixel.cut_off = real(0);
-}
-
-// Whether the finished sample has left out more than it may, and a lower threshold can help.
-bool needs_another_attempt(Pixel pixel)
-{
-    real allowance = real(hoisted_view.truncation.ALLOWANCE);
-    return PRUNES && pixel.threshold > real(0) && pixel.charge > allowance && pixel.cut_off <= allowance;
-}
-
-// What is left out falls about as the root of the threshold where rays multiply, and with it where they do not.
-real next_threshold(Pixel pixel)
-{
-    exact real fits = real(hoisted_view.truncation.ALLOWANCE) - pixel.cut_off;
-    exact real left_out = pixel.charge - pixel.cut_off;
-    exact real ratio = divide(fits, left_out);
-    exact real threshold = pixel.threshold * ratio * ratio * real(0.25);
-    return threshold > real(SMALLEST_WEIGHT) ? threshold : real(0);
-}
-
-Path primary_path(uvec2 position, real sample_x, real sample_y)
-{
+    real sample_x = real(0.5), sample_y = real(0.5);
+    if (SAMPLES > 1)
+        sequence_point(sequence_of(pixel.seed), pixel.sample_index, sample_x, sample_y);
     exact real x = real(2 * int(position.x) - int(image_size.x)) + real(2) * sample_x;
     exact real y = real(2 * int(position.y) - int(image_size.y)) + real(2) * sample_y;
     exact real3 through =
         real3(hoisted_view.forward.xyz) + x * real3(hoisted_view.half_pixel_right.xyz) + y * real3(hoisted_view.half_pixel_down.xyz);
-    Path path;
     path.ray.origin = real3(hoisted_view.position.xyz);
     path.ray.direction = unit(through);
     path.ray.surface = -1;
@@ -101,11 +59,9 @@ Path primary_path(uvec2 position, real sample_x, real sample_y)
     path.weight = real(1);
     path.bounces = 0;
     path.branch = 0u;
-    return path;
 }
 
-// Each branch draws light samples of its own, the same whichever others are traced.
-real3 matte_radiance(inout Pixel pixel, Path path, Hit hit, real3 point, real3 normal)
+Matte matte_of(Path path, Hit hit, real3 point, real3 normal)
 {
     exact real cos_out = -dot3(normal, path.ray.direction);
     Matte matte;
@@ -117,10 +73,40 @@ real3 matte_radiance(inout Pixel pixel, Path path, Hit hit, real3 point, real3 n
     matte.inward = hit.from_inside;
     matte.a = real(ONE_ROUGHNESS ? hoisted_view.matte.SHARED_A : hit.parameters.OREN_NAYAR_A);
     matte.b = real(ONE_ROUGHNESS ? hoisted_view.matte.SHARED_B : hit.oren_nayar_b);
-    uint seed = hash(pixel.seed + path.branch * uint(QUAD_LIGHTS));
-    exact real3 radiance =
-        real3(hit.parameters.xyz) * direct_light(matte, pixel.sample_index, seed, pixel.tally);
-    return radiance;
+    return matte;
+}
+
+// Adds what a ray sees that ends on a matte surface or nowhere. Whether its light takes another turn. Each branch draws
+// light samples of its own, the same whichever others are traced.
+bool end_path(inout Pixel pixel, inout Lighting light, Path path, Hit hit, real3 point, real3 normal)
+{
+    exact real3 seen = real3(hoisted_view.background.xyz);
+    if (hit.surface >= 0) {
+        Matte matte = matte_of(path, hit, point, normal);
+        uint seed = hash(pixel.seed + path.branch * uint(QUAD_LIGHTS));
+        if (LIGHTS_TAKE_TURNS) {
+            if (light_on(matte, pixel.sample_index, seed, light, pixel.tally))
+                return true;
+            seen = real3(hit.parameters.xyz) * light.sum;
+            begin_light(light);
+        } else {
+            seen = real3(hit.parameters.xyz) * direct_light(matte, pixel.sample_index, seed, pixel.tally);
+        }
+    }
+    exact real3 leaf = path.weight * seen;
+    emit_leaf(seen, leaf);
+    add_leaf(pixel, leaf);
+    return false;
+}
+
+// What a ray is charged that would make more than MAX_BOUNCES.
+void cut_off(inout Pixel pixel, Path path)
+{
+    if (!CHARGED)
+        return;
+    pixel.charge = charge(pixel.charge, path.weight);
+    pixel.cut_off = charge(pixel.cut_off, path.weight);
+    emit_untraced(true, UNTRACED_BOUNCES, path.weight, pixel.charge);
 }
 
 // Gives the ray of a mirror or glass hit its next direction; where glass splits it, the reflection is put on the
@@ -169,178 +155,104 @@ bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real
     return reflects || refracts;
 }
 
-// Adds a leaf of the ray tree to the sample: what a ray sees that ends here. The exact rounding error of each sum is kept (Knuth, TAOCP 2,
-// 4.2.2), so that leaving out rays changes the picture by what they would have brought, and not by how the others
-// round.
-void add_leaf(inout Pixel pixel, Path path, Hit hit, real3 point, real3 normal)
+void trace(Path path, out Hit hit, out real3 point, out real3 normal)
 {
-    exact real3 seen = real3(hoisted_view.background.xyz);
-    if (hit.surface >= 0) {
-        exact real3 black = real3(0);
-        seen = hit.kind == KIND_MATTE ? matte_radiance(pixel, path, hit, point, normal) : black;
-    }
-    exact real3 leaf = path.weight * seen;
-    emit_leaf(seen, leaf);
-    if (!GLASS) { // the sample's only leaf
-        pixel.leaves = leaf;
-        return;
-    }
-    exact real3 sum = pixel.leaves + leaf;
-    exact real3 added = sum - pixel.leaves;
-    exact real3 rounding = pixel.rounding + ((pixel.leaves - (sum - added)) + (leaf - added));
-    pixel.leaves = sum;
-    pixel.rounding = rounding;
+    hit = nearest_hit(path.ray);
+    hit_point(path.ray, hit, point, normal);
 }
 
-// One turn of the loop traces one ray of the tree. Whether a resumable pipeline has left some of the tree.
-bool trace(inout Pixel pixel, inout Path path, inout int pending, Path primary)
+bool bounces(Hit hit)
 {
-    bool goes_on = true;
-    uint rays = 0u, leaves = 0u;
-    while (goes_on && (!RESUMABLE || rays < PORTION)) {
-        ++rays;
-        emit_ray(pixel.sample_index, path);
-        Hit hit = nearest_hit(path.ray);
-        note(pixel.tally, uint(hit.surface + 1) * 2u + uint(hit.from_inside));
-        real3 point, normal;
-        hit_point(path.ray, hit, point, normal);
-        emit_hit(hit, point, normal);
-        goes_on = false;
-        if ((MIRRORS || GLASS) && hit.surface >= 0 && hit.kind != KIND_MATTE) {
-            if (SECONDARY_RAYS && path.bounces < MAX_BOUNCES)
-                goes_on = bounce(path, pending, pixel, hit, point, normal);
-            else if (CHARGES) {
-                pixel.charge = charge(pixel.charge, path.weight);
-                pixel.cut_off = charge(pixel.cut_off, path.weight);
-                emit_untraced(true, UNTRACED_BOUNCES, path.weight, pixel.charge);
-            }
-        } else {
-            ++leaves;
-            add_leaf(pixel, path, hit, point, normal);
+    return (MIRRORS || GLASS) && hit.surface >= 0 && hit.kind != KIND_MATTE;
+}
+
+// The primary rays of the rows that lie in the tile. The pixels that show a mirror or glass are left for later.
+uint render_primary_rays(uint first_row, uint rows)
+{
+    uint later = 0u;
+    for (uint row = 0u; row < rows; ++row) {
+        uvec2 in_tile = uvec2(gl_GlobalInvocationID.x, first_row + row);
+        bool inside = all(lessThan(in_tile, tile_size)), ends = true;
+        uint place = inside ? in_tile.y * tile_size.x + in_tile.x : 0u;
+        Pixel pixel;
+        Lighting light;
+        begin_pixel(pixel, tile_origin + in_tile, place);
+        for (uint k = SAMPLES > 1 ? first_sample : 0u; k < (SAMPLES > 1 ? samples_end : 1u); ++k) {
+            Path path;
+            Hit hit;
+            real3 point, normal;
+            begin_path(path, tile_origin + in_tile, pixel);
+            trace(path, hit, point, normal);
+            note(pixel.tally, uint(hit.surface + 1) * 2u + uint(hit.from_inside));
+            ends = ends && !(SECONDARY_RAYS && bounces(hit));
+            if (bounces(hit))
+                cut_off(pixel, path);
+            else
+                end_path(pixel, light, path, hit, point, normal);
+            end_sample(pixel);
         }
-        if (GLASS && SECONDARY_RAYS && !goes_on && pending > 0) {
-            pop(path, pending);
-            goes_on = true;
-        }
-        if (PRUNES && !goes_on && needs_another_attempt(pixel)) {
-            begin_attempt(pixel, next_threshold(pixel));
-            begin_attempt_events();
-            path = primary;
-            goes_on = true;
-        }
-        if (goes_on)
-            ++pixel.tally.secondary_rays;
+        if (inside && ends)
+            store(place, pixel);
+        later |= inside && !ends ? 1u << row : 0u;
     }
-    most_rays = max(most_rays, rays);
-    most_leaves = max(most_leaves, leaves);
-    return RESUMABLE && goes_on;
+    return later;
 }
 
-// Whether the sample is finished, that is, added to the pixel.
-bool render_sample(inout Pixel pixel, Path primary, uint place)
+// One turn of the loop: traces a ray of the tree.
+void turn(inout Work work, uint first_row)
 {
-    Path path = primary;
-    int pending = 0;
-    begin_attempt(pixel, PRUNES ? real(hoisted_view.truncation.FIRST_THRESHOLD) : real(0));
-    begin_sample_events();
-    if (RESUMABLE && sample_goes_on)
-        load(place, pixel, path, pending);
-    if (trace(pixel, path, pending, primary)) {
-        save(place, pixel, path, pending);
-        return false;
+    if (!work.busy) {
+        work.row = uint(findLSB(work.later));
+        work.later &= work.later - 1u;
     }
-    exact real3 sample_radiance = pixel.leaves + pixel.rounding;
-    exact real3 radiance = pixel.radiance + sample_radiance;
-    pixel.radiance = radiance;
-    exact real charges = (pixel.charges + pixel.charge) * real(ROUND_UP);
-    pixel.charges = charges;
-    emit_sample(sample_radiance, pixel.charge);
-    return true;
-}
+    uvec2 in_tile = uvec2(gl_GlobalInvocationID.x, first_row + work.row);
+    uint place = in_tile.y * tile_size.x + in_tile.x;
+    records(in_tile);
+    if (!work.busy) {
+        begin_pixel(work.pixel, tile_origin + in_tile, place);
+        work.busy = true;
+        work.fresh = true;
+    }
+    if (work.fresh)
+        begin_path(work.path, tile_origin + in_tile, work.pixel);
+    work.fresh = false;
 
-// What an earlier dispatch has left of the pixel.
-real3 stored(uint place)
-{
-    if (INTEGERS)
-        return real3(int(counts[3u * place]));
-    return real3(picture[3u * place], picture[3u * place + 1u], picture[3u * place + 2u]);
-}
-
-// Of a pixel without values yet.
-void store_mark(uint place, real mark)
-{
-    if (INTEGERS)
-        counts[3u * place] = uint(int(mark));
-    else
-        picture[3u * place] = mark;
-}
-
-// The values of the pixel or, of integers, the mark in value.x and the tally.
-void store(uint place, real3 value, Tally tally)
-{
-    store_mark(place, value.x);
-    if (INTEGERS) {
-        counts[3u * place + 1u] = OUTPUT == OUTPUT_RAYS ? tally.secondary_rays : tally.signature;
-        counts[3u * place + 2u] = tally.shadow_rays;
+    bool known = LIGHTS_TAKE_TURNS && work.light.next > 0u; // the ray has been told of
+    Hit hit;
+    real3 point, normal;
+    emit_ray(!known, work.pixel.sample_index, work.path);
+    trace(work.path, hit, point, normal);
+    emit_hit(!known, hit, point, normal);
+    if (!known)
+        note(work.pixel.tally, uint(hit.surface + 1) * 2u + uint(hit.from_inside));
+    bool goes_on = false, lights_on = false;
+    if (bounces(hit)) {
+        if (SECONDARY_RAYS && work.path.bounces < MAX_BOUNCES)
+            goes_on = bounce(work.path, work.pending, work.pixel, hit, point, normal);
+        else
+            cut_off(work.pixel, work.path);
     } else {
-        picture[3u * place + 1u] = value.y;
-        picture[3u * place + 2u] = value.z;
+        lights_on = end_path(work.pixel, work.light, work.path, hit, point, normal);
+    }
+    if (GLASS && !goes_on && !lights_on && work.pending > 0) {
+        pop(work.path, work.pending);
+        goes_on = true;
+    }
+    if (goes_on)
+        ++work.pixel.tally.secondary_rays;
+    if (!goes_on && !lights_on) {
+        work.fresh = true;
+        if (end_sample(work.pixel)) {
+            store(place, work.pixel);
+            work.busy = false;
+        }
     }
 }
 
-// The pixel's three values; the first is UNFINISHED where it is not done. Of integers only the first: they are in the
-// tally.
-real3 render_pixel(uvec2 position, uint place, out Tally tally)
+uint rows_inside(uint first_row)
 {
-    Pixel pixel = Pixel(real3(0), real3(0), real3(0), real(0), real(0), real(0), real(0), 0u, 0u, Tally(0u, 0u, 0u));
-    real3 left = real3(0);
-    if (SAMPLES > 1 || RESUMABLE)
-        left = stored(place);
-    // a signature goes through all samples; rays are counted by the dispatch
-    if (OUTPUT == OUTPUT_SIGNATURE && (first_sample > 0u || sample_goes_on))
-        pixel.tally.signature = counts[3u * place + 1u];
-    tally = pixel.tally;
-    if (RESUMABLE && sample_goes_on && left.x != real(UNFINISHED))
-        return left;
-    if (SAMPLES > 1 || QUAD_LIGHTS > 0)
-        pixel.seed = hash(hash(position.x) + position.y);
-    bool finished = true;
-    Sequence sequence;
-    if (SAMPLES > 1) {
-        sequence = sequence_of(pixel.seed);
-        if (OUTPUT == OUTPUT_RADIANCE && first_sample > 0u)
-            pixel.radiance = left;
-        if (OUTPUT == OUTPUT_TRUNCATION && first_sample > 0u)
-            pixel.charges = left.x;
-    }
-    // One call for both cases: each call is another copy of the tracer, which costs lavapipe 100 ms.
-    for (uint k = SAMPLES > 1 ? first_sample : 0u; k < (SAMPLES > 1 ? end_sample : 1u); ++k) {
-        pixel.sample_index = k;
-        real x = real(0.5), y = real(0.5);
-        if (SAMPLES > 1)
-            sequence_point(sequence, k, x, y);
-        finished = render_sample(pixel, primary_path(position, x, y), place);
-    }
-    tally = pixel.tally;
-    if (RESUMABLE && !finished)
-        return real3(UNFINISHED);
-    if (INTEGERS)
-        return real3(0);
-    if (OUTPUT == OUTPUT_TRUNCATION)
-        return real3(pixel.charges, real(0), real(0));
-    if (end_sample < uint(SAMPLES))
-        return pixel.radiance;
-    if (SAMPLES > 1) {
-        exact real3 mean;
-        for (int c = 0; c < 3; ++c)
-            mean[c] = divide(pixel.radiance[c], real(SAMPLES));
-        pixel.radiance = mean;
-    }
-    exact real3 value = pixel.radiance;
-    for (int c = 0; c < 3; ++c)
-        value[c] = value[c] < real(SMALLEST_WEIGHT) ? real(0) : value[c]; // a NaN stays to be seen
-    emit_pixel(value);
-    return value;
+    uint rows = gl_GlobalInvocationID.x < tile_size.x && first_row < tile_size.y ? min(tile_size.y - first_row, ROWS) : 0u;
+    return rows < 32u ? (1u << rows) - 1u : ~0u;
 }
 
 void main()
@@ -349,23 +261,33 @@ void main()
     tile_origin = tile.origin;
     tile_size = tile.size;
     image_size = tile.image_size;
-    first_sample = tile.first_sample;
-    end_sample = tile.end_sample;
-    sample_goes_on = tile.goes_on != 0u;
-    begin_events(first_sample == 0u && !sample_goes_on);
-    for (uint row = 0u; row < ROWS; ++row) {
-        uvec2 in_tile = uvec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * ROWS + row);
-        bool inside = all(lessThan(in_tile, tile_size));
-        begin_pixel_events(in_tile);
-        uint place = inside ? in_tile.y * tile_size.x + in_tile.x : 0u;
-        real3 value = real3(0);
-        Tally tally;
-        if (!RESUMABLE || inside)
-            value = render_pixel(tile_origin + in_tile, place, tally);
-        if (inside)
-            store(place, value, tally);
-    }
-    uvec2 first = uvec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * ROWS);
-    if (too_many_turns(end_sample - first_sample) && all(lessThan(first, tile_size)))
-        store_mark(first.y * tile_size.x + first.x, real(TOO_LONG));
+    first_sample = SAMPLES_APART ? tile.first_sample : 0u;
+    samples_end = SAMPLES_APART ? tile.end_sample : uint(SAMPLES);
+    uint most_turns = tile.most_turns;
+    bool goes_on = RESUMABLE && tile.goes_on != 0u;
+    begin_events(first_sample == 0u && !goes_on);
+    // lavapipe gives each thread groups that lie together: dealt out in turn, all get their share of what is dear
+    uint share = gl_NumWorkGroups.y / tile.threads;
+    uint group_y = gl_WorkGroupID.y % share * tile.threads + gl_WorkGroupID.y / share;
+    uint first_row = (group_y * gl_WorkGroupSize.y + gl_LocalInvocationID.y) * ROWS;
+    Work work;
+    work.row = 0u;
+    work.busy = false;
+    work.fresh = false;
+    work.pending = 0;
+    begin_light(work.light);
+    begin_pixel(work.pixel, uvec2(0), 0u);
+    begin_path(work.path, uvec2(0), work.pixel);
+    if (PRIMARY_RAYS_FIRST)
+        work.later = render_primary_rays(first_row, goes_on ? 0u : ROWS);
+    else
+        work.later = rows_inside(first_row);
+    if (PRIMARY_RAYS_FIRST && !SECONDARY_RAYS)
+        return;
+    if (goes_on)
+        load(work, first_row);
+    for (uint turns = 0u; !is_done(work) && (!RESUMABLE || turns < most_turns); ++turns)
+        turn(work, first_row);
+    if (RESUMABLE)
+        save(work);
 }

@@ -65,6 +65,8 @@ add_scattered(1100 --max-bounces 1 --light-samples 1)
 # without a word: what takes more has to be cut up.
 add_agreement(many_turns/figure_2b/33x21/light_samples_8192 ${PROJECT_SOURCE_DIR}/scenes/figure_2b.yaml
               --size 33x21 --light-samples 8192)
+add_agreement(many_turns/figure_2b/4x4/light_samples_65536 ${PROJECT_SOURCE_DIR}/scenes/figure_2b.yaml
+              --size 4x4 --light-samples 65536)
 add_agreement(many_turns/figure_2b/33x21/samples_256 ${PROJECT_SOURCE_DIR}/scenes/figure_2b.yaml
               --size 33x21 --samples 256)
 add_agreement(many_turns/overlapping_glass/60x40/bounces_32

@@ -56,6 +56,12 @@ add_executable(vkwhitted_broken_picture ${PROJECT_SOURCE_DIR}/host/cli/main.c ${
 target_include_directories(vkwhitted_broken_picture BEFORE PRIVATE ${half} ${PROJECT_BINARY_DIR}/shaders)
 target_link_libraries(vkwhitted_broken_picture PRIVATE vkwhitted_host)
 
+# A Vulkan layer that makes lavapipe look like a graphics card, and fail.
+add_library(pretend_layer MODULE pretend_layer.c)
+set_target_properties(pretend_layer PROPERTIES PREFIX "")
+target_link_libraries(pretend_layer PRIVATE Vulkan::Headers)
+configure_file(pretend_layer.json pretend_layer.json COPYONLY)
+
 function(add_cli_tests script)
     foreach(name IN LISTS ARGN)
         add_test(NAME cli/${script}/${name} COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/${script}.sh ${name})
@@ -64,7 +70,7 @@ function(add_cli_tests script)
             PROPERTIES LABELS cli TIMEOUT 120 SKIP_RETURN_CODE 77
                        ENVIRONMENT "VKWHITTED=$<TARGET_FILE:vkwhitted>;BROKEN=$<TARGET_FILE:vkwhitted_broken>;\
 JSON_GET=$<TARGET_FILE:json_get>;SOURCE_DIR=${PROJECT_SOURCE_DIR};\
-BINARY_DIR=${PROJECT_BINARY_DIR};SANITIZE=${VKWHITTED_SANITIZE}")
+BINARY_DIR=${PROJECT_BINARY_DIR};LAYER=${CMAKE_CURRENT_BINARY_DIR};SANITIZE=${VKWHITTED_SANITIZE}")
     endforeach()
 endfunction()
 add_cli_tests(usage no_command unknown_command unknown_option missing_argument value_like_an_option size numbers crop
@@ -73,8 +79,9 @@ add_cli_tests(usage no_command unknown_command unknown_option missing_argument v
 add_cli_tests(input missing_scene folder_as_scene bad_scene bad_scene_among_good_ones scene_that_is_warned_of)
 add_cli_tests(output formats same_bits_on_both_backends exr_metadata transfer unknown_suffix unwritable_folder
               missing_folder disk_full existing_file_kept_on_failure crop_of_16384 stats)
-add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer loops_ended_early
+add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer
               devices)
+add_cli_tests(pretend agreement_as_graphics_card dispatch_sizes failing_calls)
 add_cli_tests(check agreement difference tolerance allow heatmap json worst_status)
 add_cli_tests(bench without_device report compare bad_comparison options interrupted)
 set_tests_properties(cli/bench/compare PROPERTIES TIMEOUT 400)
@@ -89,10 +96,7 @@ endif()
 add_cli_tests(interrupt sigint_on_device sigint_on_cpu sigterm)
 add_cli_tests(watch scene_edits_keep_the_pipeline shader_edits broken_and_repaired broken_at_the_start ways_of_saving
               missing_includes written_slowly quick_saves idle checked_in_the_background checked_in_double validated
-              saves no_resumable_pipeline)
-add_library(no_pipelines MODULE no_pipelines.c)
-target_link_libraries(no_pipelines PRIVATE Vulkan::Headers)
-set_property(TEST cli/watch/no_resumable_pipeline APPEND PROPERTY ENVIRONMENT "NO_PIPELINES=$<TARGET_FILE:no_pipelines>")
+              saves device_lost)
 add_cli_tests(progress on_a_terminal not_elsewhere quiet)
 if(VKWHITTED_SLOW_TESTS)
     add_cli_tests(output size_16384)

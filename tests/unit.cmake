@@ -39,10 +39,6 @@ foreach(module IN LISTS device_modules)
     add_unit_test(${module})
     set_tests_properties(unit/${module} PROPERTIES LABELS "unit;device" TIMEOUT 600)
 endforeach()
-if(TARGET unit_tracer)
-    target_link_options(unit_tracer PRIVATE LINKER:--wrap=vkCreateComputePipelines) # which the test makes fail
-endif()
-
 if(CMAKE_C_COMPILER_ID MATCHES Clang AND NOT VKWHITTED_SANITIZE)
     # The host library is compiled a second time, for libFuzzer's counters.
     file(GLOB host_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/host/base/*.c ${PROJECT_SOURCE_DIR}/host/scene/*.c)

@@ -12,7 +12,10 @@ static enum status run_point(struct bench_point *point, struct image *image, dou
     if (point->tracer) {
         struct progress unseen;
         progress_start(&unseen, "", 1, true);
-        return tracer_render(point->tracer, point->plan.window, image, &unseen, milliseconds);
+        struct tracer_times times;
+        enum status traced = tracer_render(point->tracer, point->plan.window, image, &unseen, &times);
+        *milliseconds = times.dispatch_ms;
+        return traced;
     }
     struct rendering rendering;
     enum status status = render_on_cpu(&point->plan, &rendering);
@@ -87,6 +90,7 @@ static enum status foresee(struct bench *bench, const struct bench_point *point,
  * cannot do is left out. */
 static enum status start_points(struct bench *bench)
 {
+    const struct vulkan_context *context = bench->options->context;
     const size_t count = bench->count;
     enum status status = STATUS_DONE;
     bench->count = 0;
@@ -108,7 +112,7 @@ static enum status start_points(struct bench *bench)
             status = bench_error_measure(&bench->image,
                                          point->family == FAMILY_SAMPLES ? &bench->filtered : &bench->truth,
                                          &point->error);
-        } else if (status == STATUS_UNABLE) {
+        } else if (status == STATUS_UNABLE && !(context && context->lost)) {
             log_warning("%s: left out: %s", bench->job.scene.path, point->label);
             status = STATUS_DONE;
         }

@@ -40,15 +40,16 @@ static enum status write_stats(const struct options *options, const struct job *
     json_t *driver = context ? json_sprintf("%s %s", context->driver.driverName, context->driver.driverInfo)
                              : json_string("plain-C reference");
     json_t *stats = json_pack(
-        "{s:s, s:s, s:o, s:i, s:i, s:s, s:s, s:i, s:i, s:i, s:f, s:f, s:f, s:f, s:{s:I, s:I, s:I}, s:f}",
+        "{s:s, s:s, s:o, s:i, s:i, s:s, s:s, s:i, s:i, s:i, s:f, s:f, s:f, s:f, s:f, s:{s:I, s:I, s:I}, s:f}",
         "scene", options->scenes[0], "device", device, "driver", driver, "width", (int)job->plan.window.width,
         "height", (int)job->plan.window.height, "precision", precision_name(options->job.plan.precision),
         "mode", options->job.plan.fast ? "fast" : "exact", "max_bounces", job->packed.max_bounces, "samples",
         job->packed.samples, "light_samples", job->packed.light_samples, "setup_ms", rendering->setup_ms,
-        "first_dispatch_ms", rendering->first_dispatch_ms, "dispatch_ms", rendering->dispatch_ms, "write_ms",
-        write_ms, "rays", "primary", (json_int_t)rays->primary, "secondary", (json_int_t)rays->secondary,
-        "shadow", (json_int_t)rays->shadow, "rays_per_second",
-        rendering->dispatch_ms > 0 ? total / rendering->dispatch_ms * 1000 : 0);
+        "first_dispatch_ms", rendering->first_dispatch_ms, "dispatch_ms", rendering->times.dispatch_ms,
+        "device_ms", rendering->times.device_ms, "write_ms", write_ms, "rays", "primary",
+        (json_int_t)rays->primary, "secondary", (json_int_t)rays->secondary, "shadow",
+        (json_int_t)rays->shadow, "rays_per_second",
+        rendering->times.dispatch_ms > 0 ? total / rendering->times.dispatch_ms * 1000 : 0);
     return json_write(stats, options->stats);
 }
 
@@ -66,7 +67,7 @@ static enum status deliver(const struct options *options, const struct job *job,
         status = write_stats(options, job, rendering, context, device, write_ms);
     if (status == STATUS_DONE)
         log_notice("%s: %ux%u in %.1f ms on %s (set-up %.1f ms, writing %.1f ms)", options->scenes[0],
-                   rendering->image.width, rendering->image.height, rendering->dispatch_ms, device,
+                   rendering->image.width, rendering->image.height, rendering->times.dispatch_ms, device,
                    rendering->setup_ms, write_ms);
     return status;
 }

@@ -45,7 +45,7 @@ enum status ray_tree_on_device(struct vulkan_context *context, const struct rend
     struct progress unseen = {.total = 1};
     struct tracer *tracer = NULL;
     struct image image;
-    double unused_ms;
+    struct tracer_times unused;
     const void *events;
     *tree = (struct ray_tree){0};
     enum status status = image_create(1, 1, &image);
@@ -53,7 +53,7 @@ enum status ray_tree_on_device(struct vulkan_context *context, const struct rend
         status = tracer_create(context, plan->scene, &options, &tracer);
     if (status == STATUS_DONE)
         status = tracer_render(tracer, (struct window){plan->window.x, plan->window.y, 1, 1}, &image, &unseen,
-                               &unused_ms);
+                               &unused);
     if (status == STATUS_DONE)
         status = allocate(tree, tracer_events(tracer, &events), kept);
     if (status == STATUS_DONE)

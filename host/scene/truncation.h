@@ -12,7 +12,7 @@
 void truncation_pack(struct packed_scene *scene, double max_error);
 
 /* How far a pixel is from the picture with all bounces at most, both as computed, given the pixel's charges
- * (OUTPUT_TRUNCATION); perhaps INFINITY. */
+ * (struct image of the tracer); perhaps INFINITY. */
 double truncation_bound(const struct packed_scene *scene, double charges);
 
 #endif

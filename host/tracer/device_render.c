@@ -5,35 +5,38 @@
 #include "tracer/render.h"
 
 static enum status render_once_on_device(void *renderer, const struct render_plan *plan, struct image *image,
-                                         struct progress *progress, double *milliseconds)
+                                         struct progress *progress, struct tracer_times *times)
 {
-    return tracer_render(renderer, plan->window, image, progress, milliseconds);
+    return tracer_render(renderer, plan->window, image, progress, times);
 }
 
 static enum status create_tracer(struct vulkan_context *context, const struct render_plan *plan, int output,
                                  struct tracer **tracer)
 {
     const struct tracer_options options = {
-        .double_precision = plan->precision == PRECISION_DOUBLE, .fast = plan->fast, .output = output};
+        .double_precision = plan->precision == PRECISION_DOUBLE,
+        .fast = plan->fast,
+        .output = output,
+        .charges = output == OUTPUT_RADIANCE && plan->bound_truncation,
+    };
     return tracer_create(context, plan->scene, &options, tracer);
 }
 
-/* Renders another output than radiance. */
+/* Renders another output than radiance, in a pipeline of its own. */
 static enum status render_output(struct vulkan_context *context, const struct render_plan *plan, int output,
                                  const struct tracer_values *values)
 {
     static const char *const tasks[] = {
         [OUTPUT_RAYS] = "counting rays",
         [OUTPUT_SIGNATURE] = "path signatures",
-        [OUTPUT_TRUNCATION] = "untraced rays",
     };
     struct tracer *tracer;
     struct progress progress;
-    double unused_ms;
+    struct tracer_times unused;
     progress_start(&progress, tasks[output], (uint64_t)plan->window.width * plan->window.height, plan->quiet);
     enum status status = create_tracer(context, plan, output, &tracer);
     if (status == STATUS_DONE)
-        status = tracer_render_values(tracer, plan->window, values, &progress, &unused_ms);
+        status = tracer_render_values(tracer, plan->window, values, &progress, &unused);
     progress_end(&progress);
     tracer_destroy(&tracer);
     return status;
@@ -67,16 +70,6 @@ enum status signatures_on_device(struct vulkan_context *context, const struct re
     return status;
 }
 
-static enum status bound_truncation(struct vulkan_context *context, const struct render_plan *plan,
-                                    struct image *image)
-{
-    enum status status = render_output(context, plan, OUTPUT_TRUNCATION,
-                                       &(struct tracer_values){.charges = image->truncation});
-    for (size_t i = 0; status == STATUS_DONE && i < (size_t)image->width * image->height; ++i)
-        image->truncation[i] = (float)truncation_bound(plan->scene, (double)image->truncation[i]);
-    return status;
-}
-
 enum status render_on_device(struct vulkan_context *context, const struct render_plan *plan,
                              struct rendering *rendering)
 {
@@ -91,10 +84,11 @@ enum status render_on_device(struct vulkan_context *context, const struct render
     tracer_destroy(&tracer);
     if (status != STATUS_DONE)
         return status;
+    struct image *image = &rendering->image;
+    for (size_t i = 0; image->truncation && i < (size_t)image->width * image->height; ++i)
+        image->truncation[i] = (float)truncation_bound(plan->scene, (double)image->truncation[i]);
     if (plan->count_rays)
         status = rays_on_device(context, plan, &rendering->rays);
-    if (status == STATUS_DONE && plan->bound_truncation)
-        status = bound_truncation(context, plan, &rendering->image);
     if (status != STATUS_DONE)
         image_destroy(&rendering->image);
     return status;

@@ -5,64 +5,44 @@
 enum { CONSTANTS = sizeof(struct specialization) / sizeof(uint32_t) };
 _Static_assert((int)CONSTANTS <= (int)PASS_MOST_CONSTANTS && (int)BINDINGS <= (int)PASS_MOST_BINDINGS, "");
 
+static size_t value_size(const struct tracer_options *options)
+{
+    return options->double_precision ? sizeof(double) : sizeof(float);
+}
+
 static size_t pixel_size(const struct dispatcher *dispatcher)
 {
     return CHANNELS * (dispatcher->value_type == VALUE_DOUBLE ? sizeof(double) : sizeof(float));
 }
 
-static enum status create_buffers(struct dispatcher *dispatcher, uint32_t event_room)
+static uint32_t binding_count(const struct dispatcher_info *info)
 {
-    static const char *const names[BINDINGS] = {
-        [PICTURE] = "tile of the picture",
-        [SAVED_PIXELS] = "saved pixels",
-        [SAVED_STACKS] = "saved stacks",
-        [EVENTS] = "events",
-    };
-    const struct dispatch_size *size = &dispatcher->size;
-    const VkDeviceSize pixels = size->tile_pixels, picture_bytes = pixels * pixel_size(dispatcher);
-    const size_t event_bytes = sizeof(struct EventHead) + EVENT_VALUES * pixel_size(dispatcher) / CHANNELS;
-    const VkDeviceSize bytes[BINDINGS] = {
-        [PICTURE] = picture_bytes,
-        [SAVED_PIXELS] = size->stack_room > 0 ? pixels * SAVED_PIXEL_BYTES : 0,
-        [SAVED_STACKS] = pixels * size->stack_room * SAVED_PATH_BYTES,
-        [EVENTS] = event_room > 0 ? sizeof(struct event_block) + event_room * event_bytes : 0,
-    };
-    struct vulkan_buffer *buffers = dispatcher->buffers, *staging = &dispatcher->staging;
-    enum status status = STATUS_DONE;
-    for (int i = PICTURE; i < BINDINGS && status == STATUS_DONE; ++i)
-        if (bytes[i] > 0)
-            status = vulkan_buffer_create(dispatcher->context, names[i], bytes[i],
-                                          i == EVENTS ? BUFFER_READBACK : BUFFER_DEVICE, &buffers[i]);
-    if (status == STATUS_DONE && !buffers[PICTURE].mapped)
-        status = vulkan_buffer_create(dispatcher->context, "tile for the host", picture_bytes,
-                                      BUFFER_READBACK, staging);
-    if (status == STATUS_DONE && event_room > 0)
-        *(struct event_block *)buffers[EVENTS].mapped = (struct event_block){.room = event_room};
-    dispatcher->values = staging->buffer ? staging->mapped : buffers[PICTURE].mapped;
-    return status;
+    return info->options.event_room > 0 ? BINDINGS : EVENTS;
 }
 
-static enum status create_pass(struct dispatcher *dispatcher, const struct dispatcher_info *info)
+enum status dispatcher_create(const struct dispatcher_info *info, struct dispatcher *dispatcher)
 {
     const struct shader_choice choice = info->choice;
+    const int output = info->options.output;
+    *dispatcher = (struct dispatcher){
+        .info = info,
+        .size = dispatch_size_choose(info->context, info->scene, value_size(&info->options)),
+        .value_type = output == OUTPUT_RAYS || output == OUTPUT_SIGNATURE ? VALUE_UINT32
+                      : info->options.double_precision                    ? VALUE_DOUBLE
+                                                                          : VALUE_FLOAT,
+    };
     const struct specialization specialization =
-        specialize(info->context, info->scene, &dispatcher->size, info->options.output);
+        specialize(info->context, info->scene, &dispatcher->size, &info->options);
     struct pass_constant constants[CONSTANTS];
     for (uint32_t i = 0; i < CONSTANTS; ++i)
         constants[i] = (struct pass_constant){i, ((const uint32_t *)&specialization)[i]};
-    struct pass_binding bindings[BINDINGS];
-    for (uint32_t i = 0; i < BINDINGS; ++i) {
-        /* the buffers that the pipeline does not use need something in their places */
-        const struct vulkan_buffer *buffer =
-            &dispatcher->buffers[dispatcher->buffers[i].buffer ? i : PICTURE];
-        bindings[i].type = is_storage_buffer(i, choice.scene_in_storage) ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-                                                                         : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-        bindings[i].memory = i < SCENE_BINDINGS ? info->scene_buffer.parts[i]
-                                                : (VkDescriptorBufferInfo){buffer->buffer, 0, VK_WHOLE_SIZE};
-    }
+    VkDescriptorType bindings[BINDINGS];
+    for (uint32_t i = 0; i < BINDINGS; ++i)
+        bindings[i] = is_storage_buffer(i, choice.scene_in_storage) ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                                                    : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     double start = clock_ms();
     enum status status = vulkan_pass_create(
-        dispatcher->context,
+        info->context,
         &(struct pass_info){
             .name = "whitted.comp",
             .code = info->options.code.words ? info->options.code
@@ -70,7 +50,7 @@ static enum status create_pass(struct dispatcher *dispatcher, const struct dispa
             .constants = constants,
             .constant_count = CONSTANTS,
             .bindings = bindings,
-            .binding_count = info->options.event_room > 0 ? BINDINGS : EVENTS,
+            .binding_count = binding_count(info),
             .push_constant_size = sizeof(struct portion),
         },
         &dispatcher->pass);
@@ -78,68 +58,149 @@ static enum status create_pass(struct dispatcher *dispatcher, const struct dispa
     return status;
 }
 
-enum status dispatcher_create(const struct dispatcher_info *info, struct dispatch_size size,
-                              struct dispatcher *dispatcher)
-{
-    const int output = info->options.output;
-    *dispatcher = (struct dispatcher){
-        .context = info->context,
-        .size = size,
-        .value_type = output == OUTPUT_RAYS || output == OUTPUT_SIGNATURE ? VALUE_UINT32
-                      : info->options.double_precision                    ? VALUE_DOUBLE
-                                                                          : VALUE_FLOAT,
-    };
-    enum status status = create_buffers(dispatcher, info->options.event_room);
-    if (status == STATUS_DONE)
-        status = create_pass(dispatcher, info);
-    if (status != STATUS_DONE)
-        dispatcher_destroy(dispatcher);
-    return status;
-}
-
 void dispatcher_destroy(struct dispatcher *dispatcher)
 {
-    if (!dispatcher->context)
-        return;
     vulkan_pass_destroy(&dispatcher->pass);
-    for (int i = PICTURE; i < BINDINGS; ++i)
-        vulkan_buffer_destroy(dispatcher->context, &dispatcher->buffers[i]);
-    vulkan_buffer_destroy(dispatcher->context, &dispatcher->staging);
     *dispatcher = (struct dispatcher){0};
 }
 
-enum status dispatcher_run(struct dispatcher *dispatcher, const struct portion *portion, double *dispatch_ms)
+/* Groups that cover so many pixels. */
+static uint32_t groups_x(const struct dispatch_size *size, uint32_t width)
 {
+    return (width + size->group_width - 1) / size->group_width;
+}
+
+static uint32_t groups_y(const struct dispatch_size *size, uint32_t height)
+{
+    const uint32_t rows = size->group_height * size->rows;
+    return (height + rows - 1) / rows;
+}
+
+/* The threads among which rows of groups are dealt out: so many that an equal number each has few in excess.
+ */
+static uint32_t dealt_threads(const struct dispatch_size *size, uint32_t groups)
+{
+    uint32_t threads = size->threads;
+    while (threads > 1 && (threads - groups % threads) % threads > groups / 64)
+        --threads;
+    return threads;
+}
+
+static enum status create_buffers(const struct dispatcher *dispatcher, uint32_t tile_width,
+                                  uint32_t tile_height, struct dispatch_frame *frame)
+{
+    static const struct {
+        const char *name;
+        enum buffer_memory memory;
+    } kinds[BINDINGS] = {
+        [PICTURE] = {"tile of the picture", BUFFER_DEVICE},
+        [SAVED_WORKS] = {"saved work", BUFFER_DEVICE},
+        [STACKS] = {"stacks", BUFFER_DEVICE},
+        [STACK_BRANCHES] = {"branches on the stacks", BUFFER_DEVICE},
+        [OUTCOME] = {"outcome", BUFFER_READBACK},
+        [EVENTS] = {"events", BUFFER_READBACK},
+    };
+    const struct dispatcher_info *info = dispatcher->info;
     const struct dispatch_size *size = &dispatcher->size;
-    const unsigned group_rows = size->group_height * size->rows;
-    const size_t pixels = (size_t)portion->tile_width * portion->tile_height;
-    double device_ms = 0;
-    enum status status =
-        vulkan_pass_run(&dispatcher->pass,
-                        &(struct pass_dispatch){
-                            .push_constants = portion,
-                            .groups_x = (portion->tile_width + size->group_width - 1) / size->group_width,
-                            .groups_y = (portion->tile_height + group_rows - 1) / group_rows,
-                            .copy_from = dispatcher->buffers[PICTURE].buffer,
-                            .copy_to = dispatcher->staging.buffer,
-                            .copy_size = pixels * pixel_size(dispatcher),
-                        },
-                        &device_ms);
-    *dispatch_ms += device_ms;
+    const uint32_t excess = size->threads - 1; /* see dealt_threads() */
+    const VkDeviceSize invocations = (VkDeviceSize)groups_x(size, tile_width) * size->group_width *
+                                     (groups_y(size, tile_height) + excess) * size->group_height;
+    const VkDeviceSize doubled = value_size(&info->options) / sizeof(float);
+    const VkDeviceSize picture_bytes = (VkDeviceSize)tile_width * tile_height * pixel_size(dispatcher);
+    const size_t event_bytes = sizeof(struct EventHead) + EVENT_VALUES * value_size(&info->options);
+    const VkDeviceSize bytes[BINDINGS] = {
+        [PICTURE] = picture_bytes,
+        [SAVED_WORKS] = size->resumable ? invocations * SAVED_WORK_BYTES * doubled : 0,
+        [STACKS] = invocations * size->stack_room * SAVED_PATH_BYTES * doubled,
+        [STACK_BRANCHES] = invocations * size->stack_room * sizeof(uint32_t),
+        [OUTCOME] = size->resumable ? sizeof(uint32_t) : 0,
+        [EVENTS] = info->options.event_room > 0
+                       ? sizeof(struct event_block) + info->options.event_room * event_bytes
+                       : 0,
+    };
+    enum status status = STATUS_DONE;
+    for (int i = PICTURE; i < BINDINGS && status == STATUS_DONE; ++i)
+        if (bytes[i] > 0)
+            status = vulkan_buffer_create(info->context, kinds[i].name, bytes[i], kinds[i].memory,
+                                          &frame->buffers[i]);
+    if (status == STATUS_DONE && !frame->buffers[PICTURE].mapped)
+        status = vulkan_buffer_create(info->context, "tile for the host", picture_bytes, BUFFER_READBACK,
+                                      &frame->staging);
+    if (status == STATUS_DONE && info->options.event_room > 0)
+        *(struct event_block *)frame->buffers[EVENTS].mapped =
+            (struct event_block){.room = info->options.event_room};
+    frame->values = frame->staging.buffer ? frame->staging.mapped : frame->buffers[PICTURE].mapped;
     return status;
 }
 
-double dispatcher_mark(const struct dispatcher *dispatcher, size_t pixels)
+enum status dispatch_frame_create(const struct dispatcher *dispatcher, uint32_t tile_width,
+                                  uint32_t tile_height, struct dispatch_frame *frame)
 {
-    const float *floats = dispatcher->values;
-    const double *doubles = dispatcher->values;
-    const int32_t *integers = dispatcher->values;
-    double mark = 0;
-    for (size_t i = 0; i < pixels * CHANNELS; i += CHANNELS) {
-        double value = dispatcher->value_type == VALUE_DOUBLE   ? doubles[i]
-                       : dispatcher->value_type == VALUE_UINT32 ? integers[i]
-                                                                : (double)floats[i];
-        mark = value < mark ? value : mark;
+    const struct dispatcher_info *info = dispatcher->info;
+    *frame = (struct dispatch_frame){0};
+    enum status status = create_buffers(dispatcher, tile_width, tile_height, frame);
+    VkDescriptorBufferInfo memory[BINDINGS];
+    for (uint32_t i = 0; i < BINDINGS; ++i) {
+        /* the buffers that the pipeline does not use need something in their places */
+        const struct vulkan_buffer *buffer = &frame->buffers[frame->buffers[i].buffer ? i : PICTURE];
+        memory[i] = i < SCENE_BINDINGS ? info->scene_buffer.parts[i]
+                                       : (VkDescriptorBufferInfo){buffer->buffer, 0, VK_WHOLE_SIZE};
     }
-    return mark;
+    if (status == STATUS_DONE)
+        status = pass_frame_create(&dispatcher->pass, memory, &frame->frame);
+    if (status != STATUS_DONE)
+        dispatch_frame_destroy(dispatcher, frame);
+    return status;
+}
+
+void dispatch_frame_destroy(const struct dispatcher *dispatcher, struct dispatch_frame *frame)
+{
+    pass_frame_destroy(&frame->frame);
+    for (int i = PICTURE; i < BINDINGS; ++i)
+        if (frame->buffers[i].buffer)
+            vulkan_buffer_destroy(dispatcher->info->context, &frame->buffers[i]);
+    if (frame->staging.buffer)
+        vulkan_buffer_destroy(dispatcher->info->context, &frame->staging);
+    *frame = (struct dispatch_frame){0};
+}
+
+enum status dispatch_frame_start(const struct dispatcher *dispatcher, struct dispatch_frame *frame)
+{
+    const struct dispatch_size *size = &dispatcher->size;
+    const uint32_t groups = groups_y(size, frame->portion.tile_height), threads = dealt_threads(size, groups);
+    frame->portion.threads = threads;
+    if (size->resumable)
+        *(uint32_t *)frame->buffers[OUTCOME].mapped = 0;
+    enum status status =
+        pass_frame_submit(&frame->frame, &(struct pass_dispatch){
+                                             .push_constants = &frame->portion,
+                                             .groups_x = groups_x(size, frame->portion.tile_width),
+                                             .groups_y = (groups + threads - 1) / threads * threads,
+                                         });
+    frame->under_way = status == STATUS_DONE;
+    return status;
+}
+
+enum status dispatch_frame_wait(const struct dispatcher *dispatcher, struct dispatch_frame *frame,
+                                double *device_ms, bool *finished)
+{
+    enum status status = pass_frame_wait(&frame->frame, device_ms);
+    frame->under_way = false;
+    *finished = !dispatcher->size.resumable || *(const uint32_t *)frame->buffers[OUTCOME].mapped == 0;
+    return status;
+}
+
+enum status dispatch_frame_fetch(const struct dispatcher *dispatcher, struct dispatch_frame *frame)
+{
+    if (!frame->staging.buffer)
+        return STATUS_DONE;
+    const struct portion *portion = &frame->portion;
+    enum status status =
+        pass_frame_submit(&frame->frame, &(struct pass_dispatch){
+                                             .copy_from = frame->buffers[PICTURE].buffer,
+                                             .copy_to = frame->staging.buffer,
+                                             .copy_size = (VkDeviceSize)portion->tile_width *
+                                                          portion->tile_height * pixel_size(dispatcher),
+                                         });
+    return status == STATUS_DONE ? pass_frame_wait(&frame->frame, NULL) : status;
 }

@@ -22,10 +22,10 @@ enum status scene_buffer_create(struct vulkan_context *context, const struct pac
 /* Copies a scene with as many objects and lights over the one in the buffer. */
 void scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_scene *scene);
 
-enum { CHANNELS = 3 };
+enum { CHANNELS = 4 };
 
-/* What the shader's three values of a pixel are: real numbers or, for the outputs that are counted, integers.
- */
+/* What the shader's four values of a pixel are: RGB and charges, as real numbers; or, for the outputs that
+ * are counted, integers: secondary rays, shadow rays, path signature. */
 enum value_type { VALUE_FLOAT, VALUE_DOUBLE, VALUE_UINT32 };
 
 /* What all dispatchers of a tracer have in common. */
@@ -37,42 +37,59 @@ struct dispatcher_info {
     struct scene_buffer scene_buffer;
 };
 
-/* Renders tiles of a picture with one pipeline, one at a time. */
-struct dispatcher {
-    struct vulkan_context *context;
-    struct dispatch_size size;
-    enum value_type value_type;
-    const void *values;                     /* of the last tile, row by row, CHANNELS a pixel */
-    struct vulkan_buffer buffers[BINDINGS]; /* from PICTURE on, those that the pipeline uses */
-    struct vulkan_buffer staging;           /* only where the host cannot read the picture well */
-    struct vulkan_pass pass;
-};
-
 /* A dispatch: samples of a tile. As TileBlock in whitted.comp. */
 struct portion {
     uint32_t tile_x, tile_y, tile_width, tile_height, picture_width, picture_height; /* pixels */
     uint32_t first_sample, end_sample;
-    uint32_t goes_on; /* with what the dispatch before has left of the sample */
+    uint32_t goes_on; /* with what the dispatch before has left of the samples */
+    uint32_t most_turns, threads;
+};
+
+/* A tile on its way. */
+struct dispatch_frame {
+    struct vulkan_buffer buffers[BINDINGS]; /* from PICTURE on, those that the pipeline uses */
+    struct vulkan_buffer staging;           /* only where the host cannot read the picture well */
+    struct pass_frame frame;
+    const void *values; /* of the tile, row by row, CHANNELS a pixel */
+    struct portion portion;
+    bool under_way; /* on the device */
+};
+
+/* Renders tiles of a picture with one pipeline. */
+struct dispatcher {
+    const struct dispatcher_info *info;
+    struct dispatch_size size;
+    enum value_type value_type;
+    struct vulkan_pass pass;
 };
 
 /* What the buffer of EVENTS begins with. As EventBlock in shaders/events.glsl. */
 struct event_block {
-    uint32_t count, room, unused[2];
+    uint32_t count, room, first_of_sample, unused;
 };
 
-/* Builds the pipeline and what it needs; the scene's buffer must outlive the dispatcher. On failure
- * (reported) *dispatcher is empty. */
-enum status dispatcher_create(const struct dispatcher_info *info, struct dispatch_size size,
-                              struct dispatcher *dispatcher);
+/* Builds the pipeline; info must outlive the dispatcher. On failure (reported) *dispatcher is empty. */
+enum status dispatcher_create(const struct dispatcher_info *info, struct dispatcher *dispatcher);
 
 /* Destroys it, or nothing. */
 void dispatcher_destroy(struct dispatcher *dispatcher);
 
-/* Adds the portion to the tile's values, and the device's time to *dispatch_ms. Failures are reported. */
-enum status dispatcher_run(struct dispatcher *dispatcher, const struct portion *portion, double *dispatch_ms);
+/* Makes the buffers for tiles of up to so many pixels. On failure (reported) *frame is empty. */
+enum status dispatch_frame_create(const struct dispatcher *dispatcher, uint32_t tile_width,
+                                  uint32_t tile_height, struct dispatch_frame *frame);
 
-/* The lowest of the first values of so many pixels: UNFINISHED or TOO_LONG of scene_layout.h, or something
- * lower where ended loops have left a pixel as it was in memory; 0 if all are done. */
-double dispatcher_mark(const struct dispatcher *dispatcher, size_t pixels);
+/* Destroys a frame that is not under way, or nothing. */
+void dispatch_frame_destroy(const struct dispatcher *dispatcher, struct dispatch_frame *frame);
+
+/* Starts the frame's portion, but for its number of threads, which it sets. Failures are reported. */
+enum status dispatch_frame_start(const struct dispatcher *dispatcher, struct dispatch_frame *frame);
+
+/* Waits for it, and adds the device's time to *device_ms. *finished: the portion's samples are in the values;
+ * otherwise the next dispatch of the portion has to go on. */
+enum status dispatch_frame_wait(const struct dispatcher *dispatcher, struct dispatch_frame *frame,
+                                double *device_ms, bool *finished);
+
+/* Brings the values where the host reads them well. */
+enum status dispatch_frame_fetch(const struct dispatcher *dispatcher, struct dispatch_frame *frame);
 
 #endif

@@ -1,59 +1,107 @@
-#include "tracer/specialization.h"
+#include "tracer/dispatch_size.h"
 
-enum { LEAST_TILE_PIXELS = 1024, MOST_TILE_PIXELS = 1 << 21, LARGEST_PIXEL = 3 * sizeof(double) };
+#include <unistd.h>
 
-/* A dispatch should end well within a second, so that Ctrl-C is heard and no watchdog bites. */
-static unsigned choose_tile_pixels(const struct vulkan_context *context, const struct packed_scene *scene,
-                                   unsigned samples)
+/* Turns of loops, those over objects and lights included, that an invocation may make with primary rays, and
+ * again with the others. Lavapipe ends all loops of an invocation after 65535 turns, without a word; a
+ * graphics card's watchdog bites after some seconds. */
+enum { MOST_TURNS = 30000 };
+
+enum { REGISTERS = 8 }; /* of path.glsl: a larger stack lies in a buffer */
+
+static uint64_t at_least_1(uint64_t x)
 {
-    uint64_t work_per_pixel =
-        samples * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
-    uint64_t pixels = (UINT64_C(1) << 22) / work_per_pixel;
-    uint64_t fitting = context->properties.limits.maxStorageBufferRange / LARGEST_PIXEL;
-    pixels = pixels < LEAST_TILE_PIXELS ? LEAST_TILE_PIXELS : pixels;
-    pixels = pixels > MOST_TILE_PIXELS ? MOST_TILE_PIXELS : pixels;
-    return (unsigned)(pixels < fitting ? pixels : fitting);
+    return x > 1 ? x : 1;
 }
 
-/* So many that an invocation's loops stay well below lavapipe's limit, as far as can be told beforehand: as
- * resume.glsl counts them, with 16 rays and as many leaves where there are secondary rays. */
-static unsigned choose_samples(const struct vulkan_context *context, const struct packed_scene *scene,
-                               const struct dispatch_size *size)
+static uint64_t smaller(uint64_t a, uint64_t b)
 {
-    struct specialization constants = specialize(context, scene, size, OUTPUT_RADIANCE);
-    uint64_t objects = (uint64_t)(scene->sphere_count + scene->plane_count);
-    uint64_t lights = (uint64_t)scene->point_light_count +
-                      (uint64_t)scene->quad_light_count * (uint64_t)scene->light_samples;
-    uint64_t rays = (constants.mirrors || constants.glass) && scene->max_bounces > 0 ? 16 : 1;
-    uint64_t turns_over_objects = objects <= 8 ? 1 : 1 + objects;
-    uint64_t samples = (UINT64_C(1) << 15) / (size->rows * rays * turns_over_objects * (1 + lights));
-    samples = samples < 1 ? 1 : samples;
-    return (unsigned)(samples < (uint64_t)scene->samples ? samples : (uint64_t)scene->samples);
+    return a < b ? a : b;
+}
+
+static bool has_kind(const struct packed_scene *scene, int kind)
+{
+    bool found = false;
+    for (int i = 0; i < scene->sphere_count; ++i)
+        found = found || scene->spheres[i].surface.tags.SURFACE_KIND == kind;
+    for (int i = 0; i < scene->plane_count; ++i)
+        found = found || scene->planes[i].surface.tags.SURFACE_KIND == kind;
+    return found;
+}
+
+/* The most rays that a sample may have: of a binary tree, where there is glass, traced again with up to 45
+ * thresholds (each at most a quarter of the one before, and none below 2^-90). */
+static uint64_t most_rays(const struct packed_scene *scene)
+{
+    uint64_t bounces = (uint64_t)scene->max_bounces, rays = 1;
+    if (has_kind(scene, KIND_TRANSPARENT))
+        rays = (UINT64_C(2) << smaller(bounces, 40)) - 1;
+    else if (has_kind(scene, KIND_MIRROR))
+        rays = bounces + 1;
+    return rays * (scene->view.truncation.ALLOWANCE >= 0 ? 45 : 1);
+}
+
+/* Loops may be unrolled or not: all their turns are counted. */
+static void choose_turns(const struct packed_scene *scene, bool long_vectors, struct dispatch_size *size)
+{
+    const uint64_t objects = (uint64_t)(scene->sphere_count + scene->plane_count);
+    const uint64_t points = (uint64_t)scene->point_light_count +
+                            (uint64_t)scene->quad_light_count * (uint64_t)scene->light_samples;
+    size->objects_a_turn = (uint32_t)(1 + objects / (MOST_TURNS / 2));
+    const uint64_t over_objects = 2 + objects / size->objects_a_turn;
+    const uint64_t ray = 1 + (scene->view.between_mirrors.w != 0 ? 2 : 1) * over_objects;
+    const uint64_t point = 2 + over_objects;
+    const uint64_t points_a_turn = ray + points * point <= MOST_TURNS
+                                       ? at_least_1(points)
+                                       : at_least_1((MOST_TURNS - smaller(ray, MOST_TURNS)) / point);
+    const uint64_t turn = ray + points_a_turn * point;
+    size->primary_rays_first = long_vectors && points_a_turn >= points;
+    size->light_points_a_turn = (uint32_t)points_a_turn;
+    size->most_turns = (uint32_t)at_least_1(MOST_TURNS / turn);
+    size->rows = (uint32_t)at_least_1(smaller(size->rows, MOST_TURNS / turn));
+    size->samples = (uint32_t)smaller((uint64_t)scene->samples, at_least_1(MOST_TURNS / (size->rows * turn)));
+    const uint64_t turns = most_rays(scene) * at_least_1(points / points_a_turn + 1);
+    size->resumable = turns > size->most_turns / (size->rows * size->samples);
+}
+
+/* So that a dispatch ends well within a second, and its buffers fit. */
+static void choose_tile(const struct vulkan_context *context, const struct packed_scene *scene,
+                        size_t value_size, struct dispatch_size *size)
+{
+    enum { LEAST_PIXELS = 1024, MOST_PIXELS = 1 << 21 };
+    const VkPhysicalDeviceLimits *limits = &context->properties.limits;
+    uint64_t work_per_pixel =
+        size->samples * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
+    uint64_t pixels = (UINT64_C(1) << (size->on_processor ? 22 : 26)) / work_per_pixel;
+    pixels = pixels < LEAST_PIXELS ? LEAST_PIXELS : smaller(pixels, MOST_PIXELS);
+    size->tile_pixels = (unsigned)smaller(pixels, limits->maxStorageBufferRange / (4 * value_size));
 }
 
 struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
-                                          const struct packed_scene *scene)
+                                          const struct packed_scene *scene, size_t value_size)
 {
-    /* A processor's lanes share the loading of the scene over many pixels; a GPU wants many invocations. */
-    bool on_processor = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    /* A processor's lanes share the loading of the scene over many pixels; a GPU wants many invocations.
+     * Where vectors are long (lavapipe), work under a mask costs so much that the primary rays get a loop of
+     * their own; a copy of the tracer, for which SwiftShader, with vectors of 4, would compile three times as
+     * long. */
     struct dispatch_size size = {
+        .on_processor = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU,
         .group_width = 8,
-        .group_height = on_processor ? 1 : 8,
-        .rows = on_processor ? 16 : 1,
+        .group_height = 8,
+        .rows = 1,
+        .threads = 1,
     };
-    size.samples = choose_samples(context, scene, &size);
-    size.tile_pixels = choose_tile_pixels(context, scene, size.samples);
-    return size;
-}
-
-struct dispatch_size dispatch_size_resumable(struct dispatch_size size, const struct packed_scene *scene)
-{
-    enum { MOST_BYTES = 1 << 26, MOST_PIXELS = 4096 };
-    size.stack_room = scene->max_bounces > 0 ? (unsigned)scene->max_bounces : 1;
-    unsigned pixels = MOST_BYTES / (SAVED_PATH_BYTES * size.stack_room);
-    pixels = pixels < MOST_PIXELS ? pixels : MOST_PIXELS;
-    size.tile_pixels = size.tile_pixels < pixels ? size.tile_pixels : pixels;
-    size.rows = 1;
-    size.samples = 1;
+    if (size.on_processor) {
+        size.group_height = 1;
+        size.rows = 16;
+        size.threads = (uint32_t)sysconf(_SC_NPROCESSORS_ONLN);
+    }
+    const bool long_vectors = size.on_processor && context->subgroup_size >= 8;
+    choose_turns(scene, long_vectors, &size);
+    choose_tile(context, scene, value_size, &size);
+    size.stack_room = has_kind(scene, KIND_TRANSPARENT) && scene->max_bounces > 0 &&
+                              (size.resumable || scene->max_bounces > REGISTERS)
+                          ? (uint32_t)scene->max_bounces
+                          : 0;
     return size;
 }

@@ -14,8 +14,10 @@ enum {
     QUAD_LIGHTS,
     SCENE_BINDINGS,
     PICTURE = SCENE_BINDINGS,
-    SAVED_PIXELS,
-    SAVED_STACKS,
+    SAVED_WORKS,
+    STACKS,
+    STACK_BRANCHES,
+    OUTCOME,
     EVENTS, /* of the variants that tell of one pixel */
     BINDINGS,
 };
@@ -44,6 +46,7 @@ struct tracer_options {
     bool double_precision; /* exact mode only, on a device with fp64 */
     bool fast;             /* contraction and built-in functions allowed */
     int output;            /* OUTPUT_ of scene_layout.h */
+    bool charges;          /* pixels tell what they are charged for rays that are not traced */
     uint32_t event_room;   /* 0: no events are recorded; exact mode only */
     struct spirv code;     /* of the shader that tracer_shader() tells; empty: the built-in one */
 };

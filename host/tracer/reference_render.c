@@ -39,7 +39,7 @@ static void copy_band(const struct render_plan *plan, struct reference_window ba
 
 /* Renders in bands of some rows, so that Ctrl-C is heard. */
 static enum status render_once_on_cpu(void *renderer, const struct render_plan *plan, struct image *image,
-                                      struct progress *progress, double *milliseconds)
+                                      struct progress *progress, struct tracer_times *times)
 {
     static void (*const render[])(const struct packed_scene *, struct reference_window, int,
                                   struct reference_picture *) = {
@@ -61,12 +61,12 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
         .rgb = values,
         .charges = plan->bound_truncation ? values + 3 * band_pixels : NULL,
     };
-    *milliseconds = 0;
+    *times = (struct tracer_times){0};
     for (unsigned y = 0; y < window->height && !interrupt_requested(); y += band_height) {
         struct reference_window band = band_of(plan, y, band_height);
         double start = clock_ms();
         render[plan->precision](plan->scene, band, threads, &picture);
-        *milliseconds += clock_ms() - start;
+        times->dispatch_ms += clock_ms() - start;
         copy_band(plan, band, &picture, image);
         progress_advance(progress, (uint64_t)band.width * (uint64_t)band.height);
     }

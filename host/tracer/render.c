@@ -14,7 +14,8 @@ enum status render_repeatedly(render_once *render, void *renderer, const struct 
                               struct rendering *rendering)
 {
     struct image *image = &rendering->image;
-    double *warm_ms = calloc(plan->repeat + 1, sizeof *warm_ms);
+    double *warm_ms = calloc(2 * (size_t)plan->repeat + 2, sizeof *warm_ms),
+           *device_ms = warm_ms + plan->repeat;
     if (!warm_ms)
         log_error("no memory for the times of %u renderings", plan->repeat);
     enum status status =
@@ -29,17 +30,22 @@ enum status render_repeatedly(render_once *render, void *renderer, const struct 
     uint64_t pixels = (uint64_t)plan->window.width * plan->window.height;
     progress_start(&progress, "rendering", pixels * (plan->repeat + 1), plan->quiet);
     if (status == STATUS_DONE)
-        status = render(renderer, plan, image, &progress, &rendering->first_dispatch_ms);
-    for (unsigned i = 0; i < plan->repeat && status == STATUS_DONE; ++i)
-        status = render(renderer, plan, image, &progress, &warm_ms[i]);
-    progress_end(&progress);
-    if (status == STATUS_DONE) {
-        sort_doubles(warm_ms, plan->repeat);
-        rendering->dispatch_ms =
-            plan->repeat ? sorted_quantile(warm_ms, plan->repeat, 0.5) : rendering->first_dispatch_ms;
-    } else {
-        image_destroy(image);
+        status = render(renderer, plan, image, &progress, &rendering->times);
+    rendering->first_dispatch_ms = rendering->times.dispatch_ms;
+    for (unsigned i = 0; i < plan->repeat && status == STATUS_DONE; ++i) {
+        status = render(renderer, plan, image, &progress, &rendering->times);
+        warm_ms[i] = rendering->times.dispatch_ms;
+        device_ms[i] = rendering->times.device_ms;
     }
+    progress_end(&progress);
+    if (status == STATUS_DONE && plan->repeat > 0) {
+        sort_doubles(warm_ms, plan->repeat);
+        sort_doubles(device_ms, plan->repeat);
+        rendering->times.dispatch_ms = sorted_quantile(warm_ms, plan->repeat, 0.5);
+        rendering->times.device_ms = sorted_quantile(device_ms, plan->repeat, 0.5);
+    }
+    if (status != STATUS_DONE)
+        image_destroy(image);
     free(warm_ms);
     return status;
 }

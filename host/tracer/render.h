@@ -29,7 +29,7 @@ struct rendering {
     struct image image; /* the window */
     double setup_ms;    /* pipeline and upload; 0 on the CPU */
     double first_dispatch_ms;
-    double dispatch_ms;         /* median of the warm renderings, or the first if there are none */
+    struct tracer_times times;  /* medians of the warm renderings, or of the first if there are none */
     struct reference_rays rays; /* all 0 unless counted */
 };
 
@@ -56,7 +56,7 @@ enum status explain_on_cpu(const struct render_plan *plan, enum precision precis
 
 /* What the two backends share. A function of theirs that renders the plan's window once into the image. */
 typedef enum status render_once(void *renderer, const struct render_plan *plan, struct image *image,
-                                struct progress *progress, double *milliseconds);
+                                struct progress *progress, struct tracer_times *times);
 
 /* Renders once cold and plan->repeat times warm, and fills rendering's image and times. On failure there is
  * no image. */

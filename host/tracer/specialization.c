@@ -1,5 +1,7 @@
 #include "tracer/specialization.h"
 
+enum { MOST_HOISTED = 24 };
+
 static void note_surface(struct specialization *constants, const struct packed_scene *scene,
                          const PackedSurface *surface)
 {
@@ -23,7 +25,7 @@ static uint32_t plane_axis(layout_vec4 normal)
 }
 
 struct specialization specialize(const struct vulkan_context *context, const struct packed_scene *scene,
-                                 const struct dispatch_size *size, int output)
+                                 const struct dispatch_size *size, const struct tracer_options *options)
 {
     struct specialization constants = {
         .group_width = size->group_width,
@@ -37,14 +39,21 @@ struct specialization specialize(const struct vulkan_context *context, const str
         .light_samples = scene->light_samples,
         .one_roughness = VK_TRUE,
         .rows = size->rows,
-        .output = output,
+        .output = options->output,
         .corrected_division = !context->arithmetic.division_exact,
         .corrected_root = !context->arithmetic.root_exact,
         .prunes = scene->view.truncation.ALLOWANCE >= 0,
-        /* lavapipe's limit is 65535; what is left is for loops of the driver's own making */
-        .turn_limit = context->driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE ? 65000 : UINT32_MAX,
-        .resumable = size->stack_room > 0,
+        .charges = options->charges,
+        .resumable = size->resumable,
         .rays_escape = scene->view.between_mirrors.w != 0,
+        .processor = size->on_processor,
+        .samples_apart = size->samples < (uint32_t)scene->samples,
+        .light_points_a_turn = size->light_points_a_turn,
+        .objects_a_turn = (int32_t)size->objects_a_turn,
+        .hoisted = size->on_processor && scene->sphere_count + scene->plane_count + scene->point_light_count +
+                                                 scene->quad_light_count <=
+                                             MOST_HOISTED,
+        .primary_rays_first = size->primary_rays_first && options->event_room == 0,
     };
     int last_sphere_order = -1;
     for (int i = 0; i < scene->sphere_count; ++i) {

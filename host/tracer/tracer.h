@@ -2,9 +2,8 @@
 #define VKWHITTED_TRACER_TRACER_H
 
 #include "base/progress.h"
-#include "image/image.h"
-#include "reference.h"
 #include "tracer/interface.h"
+#include "tracer/values.h"
 #include "vulkan/context.h"
 
 /* The compute pipeline for one packed scene, specialised to it. */
@@ -13,11 +12,6 @@ struct tracer;
 /* Which of the shader's variants a tracer needs, on a device whose arithmetic is known. */
 struct shader_choice tracer_shader(const struct vulkan_context *context, const struct packed_scene *scene,
                                    const struct tracer_options *options);
-
-/* Part of the picture, in pixels from the top left. */
-struct window {
-    unsigned x, y, width, height;
-};
 
 /* Builds the pipeline and uploads the scene, which must outlive the tracer. On failure (reported) *tracer is
  * NULL. */
@@ -30,24 +24,15 @@ void tracer_destroy(struct tracer **tracer);
  * nothing. */
 bool tracer_update(struct tracer *tracer, const struct packed_scene *scene);
 
-/* Where a window's values go: the one that the tracer's output calls for; the others are NULL. */
-struct tracer_values {
-    struct image *image; /* of the window's size; gets the values in double precision too, if it has room */
-    struct reference_rays *rays; /* OUTPUT_RAYS: the sums over the window */
-    uint32_t *signatures;        /* OUTPUT_SIGNATURE: a pixel each */
-    float *charges;              /* OUTPUT_TRUNCATION: a pixel each */
-};
-
-/* Renders the window of the picture. *dispatch_ms gets the time that the device spent (device timestamps
- * where it has them, otherwise from submission to completion). Advances progress, whose unit is a pixel.
- * STATUS_INTERRUPTED after Ctrl-C. A failure (reported) leaves the pipeline as it was. */
+/* Renders the window of the picture. Advances progress, whose unit is a pixel. STATUS_INTERRUPTED after
+ * Ctrl-C. A failure (reported) leaves the pipeline as it was. */
 enum status tracer_render_values(struct tracer *tracer, struct window window,
                                  const struct tracer_values *values, struct progress *progress,
-                                 double *dispatch_ms);
+                                 struct tracer_times *times);
 
 /* The same for the outputs that are images. */
 enum status tracer_render(struct tracer *tracer, struct window window, struct image *image,
-                          struct progress *progress, double *dispatch_ms);
+                          struct progress *progress, struct tracer_times *times);
 
 /* The events of the pixel that was rendered last, in a window of its own, in the tracer's memory: EventHead
  * of scene_layout.h and EVENT_VALUES float or double each. The number of those that took place; of these

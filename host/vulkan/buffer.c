@@ -1,6 +1,7 @@
 #include "vulkan/buffer.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 
 enum {
     LOCAL = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
@@ -30,7 +31,7 @@ enum status vulkan_buffer_create(struct vulkan_context *context, const char *nam
                                  enum buffer_memory memory, struct vulkan_buffer *buffer)
 {
     *buffer = (struct vulkan_buffer){0};
-    VULKAN_CALL(vkCreateBuffer, context->device,
+    VULKAN_CALL(context, vkCreateBuffer, context->device,
                 &(VkBufferCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                     .size = size,
@@ -50,13 +51,15 @@ enum status vulkan_buffer_create(struct vulkan_context *context, const char *nam
                                        },
                                        NULL, &buffer->memory);
     if (result != VK_SUCCESS) {
-        log_error("vkAllocateMemory: %s for %" PRIu64 " bytes", vulkan_result_name(result),
-                  (uint64_t)requirements.size);
+        char call[64];
+        snprintf(call, sizeof call, "vkAllocateMemory of %" PRIu64 " bytes", (uint64_t)requirements.size);
+        vulkan_report(context, call, result);
         goto error;
     }
-    VULKAN_CALL(vkBindBufferMemory, context->device, buffer->buffer, buffer->memory, 0);
+    VULKAN_CALL(context, vkBindBufferMemory, context->device, buffer->buffer, buffer->memory, 0);
     if (memory != BUFFER_DEVICE || (context->memory.memoryTypes[type].propertyFlags & CACHED) == CACHED)
-        VULKAN_CALL(vkMapMemory, context->device, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->mapped);
+        VULKAN_CALL(context, vkMapMemory, context->device, buffer->memory, 0, VK_WHOLE_SIZE, 0,
+                    &buffer->mapped);
     return STATUS_DONE;
 
 error:
@@ -66,7 +69,9 @@ error:
 
 void vulkan_buffer_destroy(struct vulkan_context *context, struct vulkan_buffer *buffer)
 {
-    vkDestroyBuffer(context->device, buffer->buffer, NULL);
-    vkFreeMemory(context->device, buffer->memory, NULL);
+    if (!context->hung) {
+        vkDestroyBuffer(context->device, buffer->buffer, NULL);
+        vkFreeMemory(context->device, buffer->memory, NULL);
+    }
     *buffer = (struct vulkan_buffer){0};
 }

@@ -6,13 +6,14 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/interrupt.h"
 #include "base/number.h"
 
 static const char validation_layer[] = "VK_LAYER_KHRONOS_validation";
 
 #define NAMED(constant) constant, #constant
 
-const char *vulkan_result_name(VkResult result)
+static const char *result_name(VkResult result)
 {
     static const struct {
         VkResult result;
@@ -36,6 +37,12 @@ const char *vulkan_result_name(VkResult result)
         if (names[i].result == result)
             return names[i].name;
     return "VkResult not known to vkwhitted";
+}
+
+void vulkan_report(struct vulkan_context *context, const char *call, VkResult result)
+{
+    context->lost = context->lost || result == VK_ERROR_DEVICE_LOST;
+    log_error("%s: %s", call, result_name(result));
 }
 
 void vulkan_name(struct vulkan_context *context, VkObjectType type, uint64_t handle, const char *name)
@@ -118,14 +125,14 @@ static enum status create_instance(struct vulkan_context *context, const struct 
     else if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
         report_no_device();
     else if (result != VK_SUCCESS)
-        log_error("vkCreateInstance: %s", vulkan_result_name(result));
+        vulkan_report(context, "vkCreateInstance", result);
     if (result != VK_SUCCESS)
         return STATUS_UNABLE;
     context->set_object_name = FIND(context, vkSetDebugUtilsObjectNameEXT);
     context->insert_label = FIND(context, vkCmdInsertDebugUtilsLabelEXT);
     PFN_vkCreateDebugUtilsMessengerEXT create_messenger = FIND(context, vkCreateDebugUtilsMessengerEXT);
     if (validate)
-        VULKAN_CALL(create_messenger, context->instance, &messenger_info, NULL, &context->messenger);
+        VULKAN_CALL(context, create_messenger, context->instance, &messenger_info, NULL, &context->messenger);
     return STATUS_DONE;
 
 error:
@@ -167,7 +174,7 @@ static bool inspect_device(struct vulkan_context *context, VkPhysicalDevice devi
     };
     vkGetPhysicalDeviceProperties2(device, &properties);
     context->properties = properties.properties;
-    context->has_subgroup_arithmetic = subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+    context->subgroup_size = subgroup.subgroupSize;
     vkGetPhysicalDeviceMemoryProperties(device, &context->memory);
     VkPhysicalDeviceFeatures features;
     vkGetPhysicalDeviceFeatures(device, &features);
@@ -224,7 +231,8 @@ static enum status create_context(const struct vulkan_options *options, struct v
     if (!context || create_instance(context, options) != STATUS_DONE)
         goto error;
     context->device_count = VULKAN_MOST_DEVICES;
-    VULKAN_CALL(vkEnumeratePhysicalDevices, context->instance, &context->device_count, context->devices);
+    VULKAN_CALL(context, vkEnumeratePhysicalDevices, context->instance, &context->device_count,
+                context->devices);
     if (context->device_count > 0)
         return STATUS_DONE;
     report_no_device();
@@ -237,12 +245,7 @@ error:
 /* Opens the device that was inspected last. */
 static enum status open_device(struct vulkan_context *context)
 {
-    if (!context->has_subgroup_arithmetic) {
-        log_error("%s has no arithmetic over subgroups, which the shader needs",
-                  context->properties.deviceName);
-        return STATUS_UNABLE;
-    }
-    VULKAN_CALL(vkCreateDevice, context->physical_device,
+    VULKAN_CALL(context, vkCreateDevice, context->physical_device,
                 &(VkDeviceCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                     .queueCreateInfoCount = 1,
@@ -285,6 +288,7 @@ static void close_device(struct vulkan_context *context)
     if (context->device)
         vkDestroyDevice(context->device, NULL);
     context->device = NULL;
+    context->lost = false;
     context->arithmetic = (struct arithmetic){0};
 }
 
@@ -294,6 +298,8 @@ enum status vulkan_context_destroy(struct vulkan_context **pointer)
     *pointer = NULL;
     if (!context)
         return STATUS_DONE;
+    if (context->hung) /* all is left as it is, for the device */
+        return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_UNABLE;
     close_device(context);
     if (context->messenger) {
         PFN_vkDestroyDebugUtilsMessengerEXT destroy = FIND(context, vkDestroyDebugUtilsMessengerEXT);

@@ -32,12 +32,14 @@ struct vulkan_context {
     VkPhysicalDeviceProperties properties;
     VkPhysicalDeviceDriverProperties driver;
     VkPhysicalDeviceMemoryProperties memory;
-    bool has_float64; /* enabled */
-    bool has_subgroup_arithmetic;
+    bool has_float64;       /* enabled */
+    uint32_t subgroup_size; /* invocations that run side by side */
     VkDevice device;
     uint32_t queue_family;   /* UINT32_MAX: the device has none that suits */
     uint32_t timestamp_bits; /* 0: the queue has no timestamps */
     VkQueue queue;
+    bool lost;                    /* the device is: all that is left is to destroy */
+    bool hung;                    /* it may still be at work, so that nothing that it uses is destroyed */
     struct arithmetic arithmetic; /* not known before probe_arithmetic() */
     atomic_uint validation_messages;
     PFN_vkSetDebugUtilsObjectNameEXT set_object_name;
@@ -69,15 +71,15 @@ void vulkan_name(struct vulkan_context *context, VkObjectType type, uint64_t han
  * take this label for it. */
 void vulkan_end_frame(struct vulkan_context *context, VkCommandBuffer commands);
 
-/* A VkResult's name. */
-const char *vulkan_result_name(VkResult result);
+/* Reports a failed call; a lost device is noted. */
+void vulkan_report(struct vulkan_context *context, const char *call, VkResult result);
 
 /* Reports a failed call by its name and jumps to the function's error label. */
-#define VULKAN_CALL(function, ...)                                                                           \
+#define VULKAN_CALL(context, function, ...)                                                                  \
     do {                                                                                                     \
         VkResult vulkan_result_ = function(__VA_ARGS__);                                                     \
         if (vulkan_result_ != VK_SUCCESS) {                                                                  \
-            log_error("%s: %s", #function, vulkan_result_name(vulkan_result_));                              \
+            vulkan_report(context, #function, vulkan_result_);                                               \
             goto error;                                                                                      \
         }                                                                                                    \
     } while (0)

@@ -1,71 +1,42 @@
 #include "vulkan/pass.h"
 
 #include <string.h>
+#include <time.h>
 
 #include "base/clock.h"
+#include "base/interrupt.h"
 #include "vulkan/buffer.h"
 
 enum { STARTED, ENDED, TIMESTAMPS };
 
-/* The set, and the layouts of set and pipeline. */
-static enum status create_set(struct vulkan_pass *pass, const struct pass_info *info)
+static enum status create_layouts(struct vulkan_pass *pass)
 {
-    const VkDevice device = pass->context->device;
+    struct vulkan_context *context = pass->context;
     VkDescriptorSetLayoutBinding bindings[PASS_MOST_BINDINGS];
-    VkWriteDescriptorSet writes[PASS_MOST_BINDINGS];
-    for (uint32_t i = 0; i < info->binding_count; ++i)
+    for (uint32_t i = 0; i < pass->binding_count; ++i)
         bindings[i] = (VkDescriptorSetLayoutBinding){
             .binding = i,
-            .descriptorType = info->bindings[i].type,
+            .descriptorType = pass->bindings[i],
             .descriptorCount = 1,
             .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT,
         };
-    VULKAN_CALL(vkCreateDescriptorSetLayout, device,
+    VULKAN_CALL(context, vkCreateDescriptorSetLayout, context->device,
                 &(VkDescriptorSetLayoutCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                    .bindingCount = info->binding_count,
+                    .bindingCount = pass->binding_count,
                     .pBindings = bindings,
                 },
                 NULL, &pass->set_layout);
-    VULKAN_CALL(vkCreatePipelineLayout, device,
+    VULKAN_CALL(context, vkCreatePipelineLayout, context->device,
                 &(VkPipelineLayoutCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                     .setLayoutCount = 1,
                     .pSetLayouts = &pass->set_layout,
-                    .pushConstantRangeCount = info->push_constant_size > 0 ? 1 : 0,
+                    .pushConstantRangeCount = pass->push_constant_size > 0 ? 1 : 0,
                     .pPushConstantRanges =
-                        &(VkPushConstantRange){VK_SHADER_STAGE_COMPUTE_BIT, 0, info->push_constant_size},
+                        &(VkPushConstantRange){VK_SHADER_STAGE_COMPUTE_BIT, 0, pass->push_constant_size},
                 },
                 NULL, &pass->layout);
-    VULKAN_CALL(
-        vkCreateDescriptorPool, device,
-        &(VkDescriptorPoolCreateInfo){
-            .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-            .maxSets = 1,
-            .poolSizeCount = 2,
-            .pPoolSizes = (VkDescriptorPoolSize[]){{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, PASS_MOST_BINDINGS},
-                                                   {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, PASS_MOST_BINDINGS}},
-        },
-        NULL, &pass->descriptor_pool);
-    VULKAN_CALL(vkAllocateDescriptorSets, device,
-                &(VkDescriptorSetAllocateInfo){
-                    .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                    .descriptorPool = pass->descriptor_pool,
-                    .descriptorSetCount = 1,
-                    .pSetLayouts = &pass->set_layout,
-                },
-                &pass->set);
-    vulkan_name(pass->context, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)pass->set, info->name);
-    for (uint32_t i = 0; i < info->binding_count; ++i)
-        writes[i] = (VkWriteDescriptorSet){
-            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-            .dstSet = pass->set,
-            .dstBinding = i,
-            .descriptorCount = 1,
-            .descriptorType = info->bindings[i].type,
-            .pBufferInfo = &info->bindings[i].memory,
-        };
-    vkUpdateDescriptorSets(device, info->binding_count, writes, 0, NULL);
     return STATUS_DONE;
 
 error:
@@ -74,7 +45,7 @@ error:
 
 static enum status create_pipeline(struct vulkan_pass *pass, const struct pass_info *info)
 {
-    const VkDevice device = pass->context->device;
+    struct vulkan_context *context = pass->context;
     VkShaderModule module = VK_NULL_HANDLE;
     VkSpecializationMapEntry entries[PASS_MOST_CONSTANTS];
     for (uint32_t i = 0; i < info->constant_count; ++i)
@@ -83,14 +54,14 @@ static enum status create_pipeline(struct vulkan_pass *pass, const struct pass_i
             .offset = (uint32_t)(i * sizeof *info->constants + offsetof(struct pass_constant, value)),
             .size = sizeof info->constants->value,
         };
-    VULKAN_CALL(vkCreateShaderModule, device,
+    VULKAN_CALL(context, vkCreateShaderModule, context->device,
                 &(VkShaderModuleCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                     .codeSize = info->code.size,
                     .pCode = info->code.words,
                 },
                 NULL, &module);
-    VULKAN_CALL(vkCreateComputePipelines, device, VK_NULL_HANDLE, 1,
+    VULKAN_CALL(context, vkCreateComputePipelines, context->device, VK_NULL_HANDLE, 1,
                 &(VkComputePipelineCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                     .stage =
@@ -110,59 +81,27 @@ static enum status create_pipeline(struct vulkan_pass *pass, const struct pass_i
                     .layout = pass->layout,
                 },
                 NULL, &pass->pipeline);
-    vkDestroyShaderModule(device, module, NULL);
+    vkDestroyShaderModule(context->device, module, NULL);
     vulkan_name(pass->context, VK_OBJECT_TYPE_PIPELINE, (uint64_t)pass->pipeline, info->name);
     return STATUS_DONE;
 
 error:
-    vkDestroyShaderModule(device, module, NULL);
-    return STATUS_UNABLE;
-}
-
-static enum status create_commands(struct vulkan_pass *pass, const char *name)
-{
-    const VkDevice device = pass->context->device;
-    VULKAN_CALL(vkCreateCommandPool, device,
-                &(VkCommandPoolCreateInfo){
-                    .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                    .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
-                    .queueFamilyIndex = pass->context->queue_family,
-                },
-                NULL, &pass->command_pool);
-    VULKAN_CALL(vkAllocateCommandBuffers, device,
-                &(VkCommandBufferAllocateInfo){
-                    .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                    .commandPool = pass->command_pool,
-                    .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                    .commandBufferCount = 1,
-                },
-                &pass->commands);
-    if (pass->context->timestamp_bits > 0)
-        VULKAN_CALL(vkCreateQueryPool, device,
-                    &(VkQueryPoolCreateInfo){
-                        .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                        .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                        .queryCount = TIMESTAMPS,
-                    },
-                    NULL, &pass->timestamps);
-    VULKAN_CALL(vkCreateFence, device, &(VkFenceCreateInfo){.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO},
-                NULL, &pass->fence);
-    vulkan_name(pass->context, VK_OBJECT_TYPE_COMMAND_BUFFER, (uint64_t)pass->commands, name);
-    return STATUS_DONE;
-
-error:
+    vkDestroyShaderModule(context->device, module, NULL);
     return STATUS_UNABLE;
 }
 
 enum status vulkan_pass_create(struct vulkan_context *context, const struct pass_info *info,
                                struct vulkan_pass *pass)
 {
-    *pass = (struct vulkan_pass){.context = context, .push_constant_size = info->push_constant_size};
-    enum status status = create_set(pass, info);
+    *pass = (struct vulkan_pass){
+        .context = context,
+        .binding_count = info->binding_count,
+        .push_constant_size = info->push_constant_size,
+    };
+    memcpy(pass->bindings, info->bindings, info->binding_count * sizeof *info->bindings);
+    enum status status = create_layouts(pass);
     if (status == STATUS_DONE)
         status = create_pipeline(pass, info);
-    if (status == STATUS_DONE)
-        status = create_commands(pass, info->name);
     if (status != STATUS_DONE)
         vulkan_pass_destroy(pass);
     return status;
@@ -170,17 +109,110 @@ enum status vulkan_pass_create(struct vulkan_context *context, const struct pass
 
 void vulkan_pass_destroy(struct vulkan_pass *pass)
 {
-    if (!pass->context)
-        return;
-    const VkDevice device = pass->context->device;
-    vkDestroyFence(device, pass->fence, NULL);
-    vkDestroyQueryPool(device, pass->timestamps, NULL);
-    vkDestroyCommandPool(device, pass->command_pool, NULL);
-    vkDestroyPipeline(device, pass->pipeline, NULL);
-    vkDestroyDescriptorPool(device, pass->descriptor_pool, NULL);
-    vkDestroyPipelineLayout(device, pass->layout, NULL);
-    vkDestroyDescriptorSetLayout(device, pass->set_layout, NULL);
+    if (pass->context && !pass->context->hung) {
+        const VkDevice device = pass->context->device;
+        vkDestroyPipeline(device, pass->pipeline, NULL);
+        vkDestroyPipelineLayout(device, pass->layout, NULL);
+        vkDestroyDescriptorSetLayout(device, pass->set_layout, NULL);
+    }
     *pass = (struct vulkan_pass){0};
+}
+
+static enum status create_set(struct pass_frame *frame, const VkDescriptorBufferInfo *buffers)
+{
+    const struct vulkan_pass *pass = frame->pass;
+    struct vulkan_context *context = pass->context;
+    VkWriteDescriptorSet writes[PASS_MOST_BINDINGS];
+    VULKAN_CALL(
+        context, vkCreateDescriptorPool, context->device,
+        &(VkDescriptorPoolCreateInfo){
+            .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+            .maxSets = 1,
+            .poolSizeCount = 2,
+            .pPoolSizes = (VkDescriptorPoolSize[]){{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, PASS_MOST_BINDINGS},
+                                                   {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, PASS_MOST_BINDINGS}},
+        },
+        NULL, &frame->descriptor_pool);
+    VULKAN_CALL(context, vkAllocateDescriptorSets, context->device,
+                &(VkDescriptorSetAllocateInfo){
+                    .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                    .descriptorPool = frame->descriptor_pool,
+                    .descriptorSetCount = 1,
+                    .pSetLayouts = &pass->set_layout,
+                },
+                &frame->set);
+    for (uint32_t i = 0; i < pass->binding_count; ++i)
+        writes[i] = (VkWriteDescriptorSet){
+            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+            .dstSet = frame->set,
+            .dstBinding = i,
+            .descriptorCount = 1,
+            .descriptorType = pass->bindings[i],
+            .pBufferInfo = &buffers[i],
+        };
+    vkUpdateDescriptorSets(context->device, pass->binding_count, writes, 0, NULL);
+    return STATUS_DONE;
+
+error:
+    return STATUS_UNABLE;
+}
+
+static enum status create_commands(struct pass_frame *frame)
+{
+    struct vulkan_context *context = frame->pass->context;
+    VULKAN_CALL(context, vkCreateCommandPool, context->device,
+                &(VkCommandPoolCreateInfo){
+                    .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                    .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
+                    .queueFamilyIndex = context->queue_family,
+                },
+                NULL, &frame->command_pool);
+    VULKAN_CALL(context, vkAllocateCommandBuffers, context->device,
+                &(VkCommandBufferAllocateInfo){
+                    .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                    .commandPool = frame->command_pool,
+                    .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                    .commandBufferCount = 1,
+                },
+                &frame->commands);
+    if (context->timestamp_bits > 0)
+        VULKAN_CALL(context, vkCreateQueryPool, context->device,
+                    &(VkQueryPoolCreateInfo){
+                        .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                        .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                        .queryCount = TIMESTAMPS,
+                    },
+                    NULL, &frame->timestamps);
+    VULKAN_CALL(context, vkCreateFence, context->device,
+                &(VkFenceCreateInfo){.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO}, NULL, &frame->fence);
+    return STATUS_DONE;
+
+error:
+    return STATUS_UNABLE;
+}
+
+enum status pass_frame_create(const struct vulkan_pass *pass, const VkDescriptorBufferInfo *buffers,
+                              struct pass_frame *frame)
+{
+    *frame = (struct pass_frame){.pass = pass};
+    enum status status = create_set(frame, buffers);
+    if (status == STATUS_DONE)
+        status = create_commands(frame);
+    if (status != STATUS_DONE)
+        pass_frame_destroy(frame);
+    return status;
+}
+
+void pass_frame_destroy(struct pass_frame *frame)
+{
+    if (frame->pass && !frame->pass->context->hung) {
+        const VkDevice device = frame->pass->context->device;
+        vkDestroyFence(device, frame->fence, NULL);
+        vkDestroyQueryPool(device, frame->timestamps, NULL);
+        vkDestroyCommandPool(device, frame->command_pool, NULL);
+        vkDestroyDescriptorPool(device, frame->descriptor_pool, NULL);
+    }
+    *frame = (struct pass_frame){0};
 }
 
 /* All that was written on the device so far is seen by what follows, and by the host. */
@@ -196,23 +228,25 @@ static void record_barrier(VkCommandBuffer commands)
                          0, NULL, 0, NULL);
 }
 
-static void record(const struct vulkan_pass *pass, const struct pass_dispatch *dispatch)
+static void record(const struct pass_frame *frame, const struct pass_dispatch *dispatch)
 {
-    const VkCommandBuffer commands = pass->commands;
+    const struct vulkan_pass *pass = frame->pass;
+    const VkCommandBuffer commands = frame->commands;
     record_barrier(commands);
-    if (pass->timestamps)
-        vkCmdResetQueryPool(commands, pass->timestamps, 0, TIMESTAMPS);
+    if (frame->timestamps)
+        vkCmdResetQueryPool(commands, frame->timestamps, 0, TIMESTAMPS);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass->pipeline);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass->layout, 0, 1, &pass->set, 0,
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass->layout, 0, 1, &frame->set, 0,
                             NULL);
-    if (pass->push_constant_size > 0)
+    if (pass->push_constant_size > 0 && dispatch->push_constants)
         vkCmdPushConstants(commands, pass->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, pass->push_constant_size,
                            dispatch->push_constants);
-    if (pass->timestamps)
-        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, pass->timestamps, STARTED);
-    vkCmdDispatch(commands, dispatch->groups_x, dispatch->groups_y, 1);
-    if (pass->timestamps)
-        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pass->timestamps, ENDED);
+    if (frame->timestamps)
+        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, frame->timestamps, STARTED);
+    if (dispatch->groups_x > 0)
+        vkCmdDispatch(commands, dispatch->groups_x, dispatch->groups_y, 1);
+    if (frame->timestamps)
+        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, frame->timestamps, ENDED);
     record_barrier(commands);
     if (dispatch->copy_to) {
         vkCmdCopyBuffer(commands, dispatch->copy_from, dispatch->copy_to, 1,
@@ -221,36 +255,67 @@ static void record(const struct vulkan_pass *pass, const struct pass_dispatch *d
     }
 }
 
-enum status vulkan_pass_run(struct vulkan_pass *pass, const struct pass_dispatch *dispatch, double *device_ms)
+enum status pass_frame_submit(struct pass_frame *frame, const struct pass_dispatch *dispatch)
 {
-    const struct vulkan_context *context = pass->context;
-    VULKAN_CALL(vkBeginCommandBuffer, pass->commands,
+    struct vulkan_context *context = frame->pass->context;
+    VULKAN_CALL(context, vkBeginCommandBuffer, frame->commands,
                 &(VkCommandBufferBeginInfo){
                     .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                     .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
                 });
-    record(pass, dispatch);
-    vulkan_end_frame(pass->context, pass->commands);
-    VULKAN_CALL(vkEndCommandBuffer, pass->commands);
-    double start = clock_ms();
-    VULKAN_CALL(vkQueueSubmit, context->queue, 1,
+    record(frame, dispatch);
+    vulkan_end_frame(context, frame->commands);
+    VULKAN_CALL(context, vkEndCommandBuffer, frame->commands);
+    frame->submitted_ms = clock_ms();
+    VULKAN_CALL(context, vkQueueSubmit, context->queue, 1,
                 &(VkSubmitInfo){
                     .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
                     .commandBufferCount = 1,
-                    .pCommandBuffers = &pass->commands,
+                    .pCommandBuffers = &frame->commands,
                 },
-                pass->fence);
-    VULKAN_CALL(vkWaitForFences, context->device, 1, &pass->fence, VK_TRUE, UINT64_MAX);
-    VULKAN_CALL(vkResetFences, context->device, 1, &pass->fence);
-    *device_ms = clock_ms() - start;
-    if (pass->timestamps) {
-        uint64_t ticks[TIMESTAMPS];
-        VULKAN_CALL(vkGetQueryPoolResults, context->device, pass->timestamps, 0, TIMESTAMPS, sizeof ticks,
-                    ticks, sizeof *ticks, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
-        uint64_t mask = UINT64_MAX >> (64 - context->timestamp_bits);
-        *device_ms = (double)((ticks[ENDED] - ticks[STARTED]) & mask) *
-                     (double)context->properties.limits.timestampPeriod * 1e-6;
+                frame->fence);
+    return STATUS_DONE;
+
+error:
+    return STATUS_UNABLE;
+}
+
+/* Sleeps for a part of the time that has been waited, in nanoseconds: short enough to add little to it. */
+static void rest(double waited_ms)
+{
+    const double ns = waited_ms * 1e6 / 64;
+    nanosleep(&(struct timespec){.tv_nsec = ns < 2e4 ? 20000 : ns > 5e6 ? 5000000 : (long)ns}, NULL);
+}
+
+/* Lavapipe spins where it is to wait for a limited time, and takes a processor from the shader. */
+enum status pass_frame_wait(struct pass_frame *frame, double *device_ms)
+{
+    struct vulkan_context *context = frame->pass->context;
+    VkResult result = vkGetFenceStatus(context->device, frame->fence);
+    while (result == VK_NOT_READY && !interrupt_requested()) {
+        rest(clock_ms() - frame->submitted_ms);
+        result = vkGetFenceStatus(context->device, frame->fence);
     }
+    if (result != VK_SUCCESS && result != VK_ERROR_DEVICE_LOST)
+        context->hung = true;
+    if (result == VK_NOT_READY)
+        return STATUS_INTERRUPTED;
+    double waited_ms = clock_ms() - frame->submitted_ms;
+    if (result != VK_SUCCESS) {
+        vulkan_report(context, "vkGetFenceStatus", result);
+        return STATUS_UNABLE;
+    }
+    VULKAN_CALL(context, vkResetFences, context->device, 1, &frame->fence);
+    if (frame->timestamps) {
+        uint64_t ticks[TIMESTAMPS];
+        VULKAN_CALL(context, vkGetQueryPoolResults, context->device, frame->timestamps, 0, TIMESTAMPS,
+                    sizeof ticks, ticks, sizeof *ticks, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+        uint64_t mask = UINT64_MAX >> (64 - context->timestamp_bits);
+        waited_ms = (double)((ticks[ENDED] - ticks[STARTED]) & mask) *
+                    (double)context->properties.limits.timestampPeriod * 1e-6;
+    }
+    if (device_ms)
+        *device_ms = waited_ms;
     return STATUS_DONE;
 
 error:
@@ -259,28 +324,33 @@ error:
 
 enum status vulkan_compute(struct vulkan_context *context, const struct compute_job *job)
 {
+    static const VkDescriptorType bindings[] = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                                VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
     struct vulkan_buffer input = {0}, output = {0};
     struct vulkan_pass pass = {0};
+    struct pass_frame frame = {0};
     struct pass_info info = job->pass;
-    double unused_ms;
-    enum status status = STATUS_UNABLE;
-    if (vulkan_buffer_create(context, "input", job->input_size, BUFFER_UPLOAD, &input) != STATUS_DONE ||
-        vulkan_buffer_create(context, "output", job->output_size, BUFFER_READBACK, &output) != STATUS_DONE)
-        goto end;
-    memcpy(input.mapped, job->input, job->input_size);
-    info.bindings = (struct pass_binding[]){
-        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {input.buffer, 0, VK_WHOLE_SIZE}},
-        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {output.buffer, 0, VK_WHOLE_SIZE}},
-    };
+    info.bindings = bindings;
     info.binding_count = 2;
-    status = vulkan_pass_create(context, &info, &pass);
+    enum status status = vulkan_buffer_create(context, "input", job->input_size, BUFFER_UPLOAD, &input);
     if (status == STATUS_DONE)
-        status = vulkan_pass_run(&pass, &(struct pass_dispatch){.groups_x = job->groups, .groups_y = 1},
-                                 &unused_ms);
+        status = vulkan_buffer_create(context, "output", job->output_size, BUFFER_READBACK, &output);
+    if (status == STATUS_DONE)
+        status = vulkan_pass_create(context, &info, &pass);
+    if (status == STATUS_DONE)
+        status = pass_frame_create(
+            &pass,
+            (VkDescriptorBufferInfo[]){{input.buffer, 0, VK_WHOLE_SIZE}, {output.buffer, 0, VK_WHOLE_SIZE}},
+            &frame);
+    if (status == STATUS_DONE) {
+        memcpy(input.mapped, job->input, job->input_size);
+        status = pass_frame_submit(&frame, &(struct pass_dispatch){.groups_x = job->groups, .groups_y = 1});
+    }
+    if (status == STATUS_DONE)
+        status = pass_frame_wait(&frame, NULL);
     if (status == STATUS_DONE)
         memcpy(job->output, output.mapped, job->output_size);
-
-end:
+    pass_frame_destroy(&frame);
     vulkan_pass_destroy(&pass);
     vulkan_buffer_destroy(context, &output);
     vulkan_buffer_destroy(context, &input);

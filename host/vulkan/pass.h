@@ -14,60 +14,71 @@ struct pass_constant {
     uint32_t id, value;
 };
 
-/* What a binding of set 0 is: a whole buffer or a part of it, as a uniform or a storage buffer. */
-struct pass_binding {
-    VkDescriptorType type;
-    VkDescriptorBufferInfo memory;
-};
-
-enum { PASS_MOST_BINDINGS = 16, PASS_MOST_CONSTANTS = 32 };
+enum { PASS_MOST_BINDINGS = 16, PASS_MOST_CONSTANTS = 40 };
 
 struct pass_info {
     const char *name; /* for debuggers */
     struct spirv code;
     const struct pass_constant *constants; /* at most PASS_MOST_CONSTANTS */
     uint32_t constant_count;
-    const struct pass_binding *bindings; /* 0, 1, 2...; at most PASS_MOST_BINDINGS */
+    const VkDescriptorType *bindings; /* of set 0: uniform or storage buffers; at most PASS_MOST_BINDINGS */
     uint32_t binding_count;
     uint32_t push_constant_size; /* bytes, perhaps 0 */
 };
 
-/* A compute shader with its buffers, and the commands that run it. */
+/* A compute shader. */
 struct vulkan_pass {
     struct vulkan_context *context;
     VkDescriptorSetLayout set_layout;
     VkPipelineLayout layout;
+    VkPipeline pipeline;
+    VkDescriptorType bindings[PASS_MOST_BINDINGS];
+    uint32_t binding_count, push_constant_size;
+};
+
+/* The buffers of a pass, and the commands that run it once. Each frame can be under way on the device. */
+struct pass_frame {
+    const struct vulkan_pass *pass; /* NULL: there is no frame */
     VkDescriptorPool descriptor_pool;
     VkDescriptorSet set;
-    VkPipeline pipeline;
-    uint32_t push_constant_size;
     VkCommandPool command_pool;
     VkCommandBuffer commands;
     VkFence fence;
     VkQueryPool timestamps; /* of the dispatch; VK_NULL_HANDLE: the queue has none */
+    double submitted_ms;    /* by the clock */
 };
 
 /* What to run. */
 struct pass_dispatch {
     const void *push_constants;
-    uint32_t groups_x, groups_y;
+    uint32_t groups_x, groups_y; /* 0: nothing but the copy */
     VkBuffer copy_from, copy_to; /* afterwards; VK_NULL_HANDLE: nothing is copied */
     VkDeviceSize copy_size;      /* bytes */
 };
 
-/* Builds the pass; nothing of info is needed afterwards but the buffers. On failure (reported) *pass is
- * empty. */
+/* Builds the pass; nothing of info is needed afterwards. On failure (reported) *pass is empty. */
 enum status vulkan_pass_create(struct vulkan_context *context, const struct pass_info *info,
                                struct vulkan_pass *pass);
 
-/* Destroys a pass that the device no longer uses, or nothing, and empties *pass. */
+/* Destroys a pass without frames, or nothing, and empties *pass. */
 void vulkan_pass_destroy(struct vulkan_pass *pass);
 
-/* Runs the pass and waits for it. It sees what was written on the device before, and the host what it writes.
- * *device_ms is the time that the dispatch took by the device's timestamps, or, where there are none, since
- * the submission. Failures are reported. */
-enum status vulkan_pass_run(struct vulkan_pass *pass, const struct pass_dispatch *dispatch,
-                            double *device_ms);
+/* Makes a frame with these buffers, one for each binding, which must outlive it, as the pass must. On failure
+ * (reported) *frame is empty. */
+enum status pass_frame_create(const struct vulkan_pass *pass, const VkDescriptorBufferInfo *buffers,
+                              struct pass_frame *frame);
+
+/* Destroys a frame that is not under way, or nothing, and empties *frame. */
+void pass_frame_destroy(struct pass_frame *frame);
+
+/* Starts the frame. It sees what was written on the device before, and the host what it writes. Failures are
+ * reported. */
+enum status pass_frame_submit(struct pass_frame *frame, const struct pass_dispatch *dispatch);
+
+/* Waits for the frame. *device_ms, perhaps NULL, is the time that the dispatch took by the device's
+ * timestamps, or, where there are none, since the submission. STATUS_INTERRUPTED after Ctrl-C, also while the
+ * device does not come back. Failures are reported. */
+enum status pass_frame_wait(struct pass_frame *frame, double *device_ms);
 
 /* A dispatch with an input (binding 0 of set 0) and an output (binding 1), both storage buffers. */
 struct compute_job {

@@ -90,15 +90,15 @@ enum status probe_arithmetic(struct vulkan_context *context)
     static struct results results[PROBES];
     double start = clock_ms();
     hostile_operands(seed, operands, PROBES);
-    enum status status =
-        vulkan_compute(context, &(struct compute_job){
-                                    .pass = {.name = "probe", .code = {arithmetic_probe, sizeof arithmetic_probe}},
-                                    .input = operands,
-                                    .input_size = sizeof operands,
-                                    .output = results,
-                                    .output_size = sizeof results,
-                                    .groups = PROBES / GROUP,
-                                });
+    enum status status = vulkan_compute(
+        context, &(struct compute_job){
+                     .pass = {.name = "probe", .code = {arithmetic_probe, sizeof arithmetic_probe}},
+                     .input = operands,
+                     .input_size = sizeof operands,
+                     .output = results,
+                     .output_size = sizeof results,
+                     .groups = PROBES / GROUP,
+                 });
     if (status == STATUS_DONE) {
         judge(operands, results, &context->arithmetic);
         log_info("arithmetic probed in %.1f ms", clock_ms() - start);

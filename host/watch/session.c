@@ -155,9 +155,9 @@ static enum status compile(struct session *session, const struct picture *pictur
 }
 
 static enum status render_once_by(void *tracer, const struct render_plan *plan, struct image *image,
-                                  struct progress *progress, double *milliseconds)
+                                  struct progress *progress, struct tracer_times *times)
 {
-    return tracer_render(tracer, plan->window, image, progress, milliseconds);
+    return tracer_render(tracer, plan->window, image, progress, times);
 }
 
 /* Gives the picture its image. *pipeline_ms is the time that a new pipeline took to build, and 0 where the
@@ -179,12 +179,21 @@ static enum status render(struct session *session, struct picture *picture, doub
     replace(session, &session->traced, picture);
     status = render_repeatedly(render_once_by, session->tracer, &picture->job.plan, &rendering);
     picture->image = rendering.image;
-    picture->dispatch_ms = rendering.dispatch_ms;
+    picture->dispatch_ms = rendering.times.dispatch_ms;
     if (status != STATUS_DONE)
         tracer_destroy(&session->tracer);
     else if (session->options->window)
         status = session_show(session, &picture->image);
     return status;
+}
+
+/* Opens the device again after it was lost. On failure (reported) there is no context. */
+static void reopen_device(struct session *session)
+{
+    tracer_destroy(&session->tracer);
+    vulkan_context_destroy(&session->context);
+    if (vulkan_context_create(&session->options->vulkan, &session->context) == STATUS_DONE)
+        log_notice("the device was lost, and opened again");
 }
 
 enum status session_show(struct session *session, const struct image *image)
@@ -237,6 +246,8 @@ void session_render(struct session *session, double saved_ms)
         tell_failure(session, what, details, compile_ms);
     }
     release(session, picture);
+    if (session->context->lost)
+        reopen_device(session);
 }
 
 void session_take(struct session *session, double saved_ms)
@@ -261,6 +272,8 @@ void session_preview(struct session *session, unsigned reduction)
     if (picture && render(session, picture, &pipeline_ms) == STATUS_DONE)
         log_info("moving: every %u pixels in %.1f ms", reduction, clock_ms() - start);
     release(session, picture);
+    if (session->context->lost)
+        reopen_device(session);
 }
 
 enum status session_destroy(struct session *session)

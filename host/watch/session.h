@@ -23,7 +23,7 @@ struct watch_options {
 struct session {
     const struct watch_options *options;
     struct inputs inputs;
-    struct vulkan_context *context;
+    struct vulkan_context *context; /* NULL: it was lost and cannot be opened again */
 
     char *scene_text; /* as taken from the file; NULL: it cannot be read */
     size_t scene_length;

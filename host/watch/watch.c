@@ -131,9 +131,11 @@ static enum status follow(struct session *session)
     bool closed = false;
     double saved_ms;
     enum status status = STATUS_DONE;
-    while (status == STATUS_DONE && !closed && !interrupt_requested()) {
+    while (status == STATUS_DONE && !closed && session->context && !interrupt_requested()) {
         if (inputs_take(&session->inputs, &saved_ms))
             session_take(session, saved_ms);
+        if (!session->context)
+            break;
         if (options->window && !session->display && session->failure[0]) /* for the title */
             status = display_create(600, 400, &session->display);
         bool compares = session->shown && session->shown->band > 0 && !session->moving;
@@ -145,7 +147,7 @@ static enum status follow(struct session *session)
         else
             nanosleep(&(struct timespec){.tv_nsec = (long)(seconds * 1e9)}, NULL);
     }
-    return status;
+    return session->context ? status : STATUS_UNABLE;
 }
 
 enum status watch(const struct watch_options *options)

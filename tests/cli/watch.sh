@@ -94,9 +94,9 @@ broken_and_repaired() {
     cmp a.pfm first.pfm || fail 'the last good picture has gone'
     turn 'picture 2: same pipeline' cp "$SOURCE_DIR/shaders/dielectric.glsl" shaders/
     cmp a.pfm first.pfm || fail 'the picture is not what it was'
-    turn 'compile failed' edit 's/binding = 5/binding = 8/' shaders/whitted.comp
-    said '^shaders/whitted.comp: error: set 0, binding 8: the program provides'
-    turn 'picture 3: same pipeline' cp "$SOURCE_DIR/shaders/whitted.comp" shaders/
+    turn 'compile failed' edit 's/binding = 5/binding = 11/' shaders/pixel.glsl
+    said '^shaders/whitted.comp: error: set 0, binding 11: the program provides'
+    turn 'picture 3: same pipeline' cp "$SOURCE_DIR/shaders/pixel.glsl" shaders/
     finish
 }
 
@@ -201,21 +201,6 @@ idle() {
 
 # The pipeline that renders in small portions cannot be built, of a picture that needs it: the next picture has
 # another one.
-no_resumable_pipeline() {
-    [ "$SANITIZE" = OFF ] || skip 'the sanitizer wants to be loaded first'
-    sed 's/look_at: [^]]*]/look_at: [0, 0, -12]/' "$SOURCE_DIR/scenes/hard/touching.yaml" >away.yaml
-    figure=away.yaml
-    small='--size 8x8 --max-bounces 64'
-    LD_PRELOAD=$NO_PIPELINES start
-    touch no_pipelines
-    turn 'rendering failed; picture 1 stays' cp "$SOURCE_DIR/scenes/hard/touching.yaml" s.yaml
-    said VK_ERROR_OUT_OF_DEVICE_MEMORY
-    rm no_pipelines
-    turn 'picture 2: pipeline rebuilt' cp away.yaml s.yaml
-    picture_is_rendered_scene
-    finish
-}
-
 checked_in_the_background() {
     start --check
     eventually grep -q '^vkwhitted: picture 1: agrees with the reference in all 2400 pixels' err
@@ -312,6 +297,19 @@ saves() {
         fail "memory grew from $settled_kib to $(resident_kib) KiB"
     finish
     said '^vkwhitted: .*same pipeline'
+}
+
+device_lost() {
+    export VK_ADD_LAYER_PATH=$LAYER VK_INSTANCE_LAYERS=VK_LAYER_VKWHITTED_pretend
+    PRETEND_FAIL=vkGetFenceStatus:1:-4 PRETEND_AFTER=$PWD/go start
+    touch go
+    turn 'rendering failed; picture 1 stays' edit 's/fov_y: [0-9]*/fov_y: 50/' s.yaml
+    said 'vkGetFenceStatus: VK_ERROR_DEVICE_LOST'
+    eventually grep -q '^vkwhitted: the device was lost, and opened again' err
+    rm go
+    turn 'picture 2: pipeline rebuilt' edit 's/fov_y: [0-9]*/fov_y: 51/' s.yaml
+    picture_is_rendered_scene
+    finish
 }
 
 "$1"

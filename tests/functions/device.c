@@ -32,6 +32,7 @@ enum status device_create(struct vulkan_context *context, bool corrected, struct
 
 void device_destroy(struct device *device)
 {
+    pass_frame_destroy(&device->frame);
     vulkan_pass_destroy(&device->pass);
     vulkan_buffer_destroy(device->context, &device->outputs);
     vulkan_buffer_destroy(device->context, &device->inputs);
@@ -80,32 +81,38 @@ enum status device_load(struct device *device, const struct function_test *test)
     set_constant(constants, &count, (struct pass_constant){CORRECTED_ROOT, device->corrected_root});
     for (int i = 0; i < MOST_CONSTANTS && test->constants[i].id != 0; ++i)
         set_constant(constants, &count, test->constants[i]);
-    struct pass_binding bindings[BINDINGS];
-    for (uint32_t i = 0; i < BINDINGS; ++i)
-        bindings[i] = (struct pass_binding){i < SCENE_BINDINGS ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                                               : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                            {i == INPUTS    ? device->inputs.buffer
-                                             : i == OUTPUTS ? device->outputs.buffer
-                                                            : device->scene.buffer,
-                                             0, VK_WHOLE_SIZE}};
+    VkDescriptorType bindings[BINDINGS];
+    VkDescriptorBufferInfo buffers[BINDINGS];
+    for (uint32_t i = 0; i < BINDINGS; ++i) {
+        bindings[i] =
+            i < SCENE_BINDINGS ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        buffers[i] = (VkDescriptorBufferInfo){i == INPUTS    ? device->inputs.buffer
+                                              : i == OUTPUTS ? device->outputs.buffer
+                                                             : device->scene.buffer,
+                                              0, VK_WHOLE_SIZE};
+    }
+    pass_frame_destroy(&device->frame);
     vulkan_pass_destroy(&device->pass);
-    return vulkan_pass_create(device->context,
-                              &(struct pass_info){
-                                  .name = test->name,
-                                  .code = {words, word_count * sizeof *words},
-                                  .constants = constants,
-                                  .constant_count = count,
-                                  .bindings = bindings,
-                                  .binding_count = BINDINGS,
-                              },
-                              &device->pass);
+    enum status status = vulkan_pass_create(device->context,
+                                            &(struct pass_info){
+                                                .name = test->name,
+                                                .code = {words, word_count * sizeof *words},
+                                                .constants = constants,
+                                                .constant_count = count,
+                                                .bindings = bindings,
+                                                .binding_count = BINDINGS,
+                                            },
+                                            &device->pass);
+    return status == STATUS_DONE ? pass_frame_create(&device->pass, buffers, &device->frame) : status;
 }
 
 enum status device_run(struct device *device, size_t count, double *ns)
 {
     const struct pass_dispatch dispatch = {.groups_x = (uint32_t)(count + GROUP - 1) / GROUP, .groups_y = 1};
     double milliseconds = 0;
-    enum status status = vulkan_pass_run(&device->pass, &dispatch, &milliseconds);
+    enum status status = pass_frame_submit(&device->frame, &dispatch);
+    if (status == STATUS_DONE)
+        status = pass_frame_wait(&device->frame, &milliseconds);
     *ns = milliseconds * 1e6;
     return status;
 }

@@ -18,6 +18,7 @@ struct device {
     struct vulkan_buffer scene; /* functions.comp has the scene's bindings, and never reads them */
     struct vulkan_buffer inputs, outputs;
     struct vulkan_pass pass; /* of the function that is loaded */
+    struct pass_frame frame;
 };
 
 /* Prepares everything but the pass. Division and root are corrected where the device needs it, as the

@@ -1,0 +1,30 @@
+#ifndef VKWHITTED_TRACER_DISPATCH_SIZE_H
+#define VKWHITTED_TRACER_DISPATCH_SIZE_H
+
+#include "packed_scene.h"
+#include "vulkan/context.h"
+
+/* How invocations cover the picture, and how much one does in a dispatch. */
+struct dispatch_size {
+    bool on_processor;                  /* whose threads run invocations in the lanes of vectors */
+    uint32_t group_width, group_height; /* invocations in a work group */
+    uint32_t rows;                      /* pixels that an invocation renders, one below the other */
+    uint32_t threads;                   /* that share a dispatch */
+    uint32_t samples;                   /* at most, of each pixel */
+    uint32_t light_points_a_turn;       /* of the loop over rays */
+    uint32_t objects_a_turn;            /* of a loop over objects */
+    bool primary_rays_first;            /* before the loop over rays */
+    uint32_t most_turns;                /* of the loop over rays */
+    bool resumable;                     /* an invocation may take more turns than that */
+    uint32_t stack_room;                /* pending rays of an invocation that lie in a buffer */
+    unsigned tile_pixels;               /* at most, in a tile */
+};
+
+/* Of SavedWork and SavedPath in shaders/, in float. */
+enum { SAVED_WORK_BYTES = 160, SAVED_PATH_BYTES = 32 };
+
+/* A size that suits the device and the scene, with values of so many bytes. */
+struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
+                                          const struct packed_scene *scene, size_t value_size);
+
+#endif

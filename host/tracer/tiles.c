@@ -1,0 +1,233 @@
+#include "tracer/tiles.h"
+
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/interrupt.h"
+
+/* A dispatch should take about this long, so that Ctrl-C is heard, no watchdog bites and starting it costs
+ * little. */
+static const double goal_ms = 50;
+
+/* A picture on its way: tiles from left to right and from top to bottom. */
+struct course {
+    struct tiles *tiles;
+    struct window window;
+    const struct tracer_values *values;
+    struct progress *progress;
+    unsigned x, y, row_height; /* of the next tile, in the window */
+    double device_ms, end_ms;  /* of the dispatches so far */
+};
+
+static unsigned smaller(unsigned a, unsigned b)
+{
+    return a < b ? a : b;
+}
+
+void tiles_create(const struct dispatcher *dispatcher, struct tiles *tiles)
+{
+    *tiles = (struct tiles){
+        .dispatcher = dispatcher,
+        .pixels = dispatcher->size.tile_pixels,
+        .turns = dispatcher->size.most_turns,
+    };
+}
+
+static void destroy_frames(struct tiles *tiles)
+{
+    for (unsigned i = 0; i < tiles->frame_count; ++i)
+        dispatch_frame_destroy(tiles->dispatcher, &tiles->frames[i]);
+    tiles->frame_count = 0;
+}
+
+void tiles_destroy(struct tiles *tiles)
+{
+    destroy_frames(tiles);
+    *tiles = (struct tiles){0};
+}
+
+/* Makes the frames that a window needs, or keeps those there are. A tile is as wide as the window, if it can
+ * have a row of groups then. */
+static enum status require_frames(struct tiles *tiles, const struct window *window)
+{
+    const struct dispatch_size *size = &tiles->dispatcher->size;
+    const unsigned rows = smaller(size->rows * size->group_height, window->height);
+    unsigned width = smaller(window->width, size->tile_pixels / smaller(rows, size->tile_pixels));
+    unsigned height = smaller(window->height, size->tile_pixels / width);
+    unsigned count = width < window->width || height < window->height ? FRAMES : 1;
+    if (tiles->frame_count >= count && tiles->width >= width && tiles->height >= height)
+        return STATUS_DONE;
+    destroy_frames(tiles);
+    tiles->width = width;
+    tiles->height = height;
+    enum status status = STATUS_DONE;
+    while (tiles->frame_count < count && status == STATUS_DONE) {
+        status = dispatch_frame_create(tiles->dispatcher, width, height, &tiles->frames[tiles->frame_count]);
+        tiles->frame_count += status == STATUS_DONE;
+    }
+    return status;
+}
+
+/* Copies a row of the finished tile to the pixels of the window from the place on. */
+static void copy_row(const struct dispatch_frame *frame, enum value_type type, size_t first, size_t pixels,
+                     size_t place, const struct tracer_values *to)
+{
+    const uint32_t *integers = (const uint32_t *)frame->values + CHANNELS * first;
+    const float *floats = (const float *)frame->values + CHANNELS * first;
+    const double *doubles = (const double *)frame->values + CHANNELS * first;
+    const bool wide = type == VALUE_DOUBLE;
+    for (size_t i = 0; to->signatures && i < pixels; ++i)
+        to->signatures[place + i] = integers[CHANNELS * i + 2];
+    if (!to->image)
+        return;
+    float *rgb = to->image->rgb + 3 * place;
+    for (size_t i = 0; i < pixels; ++i)
+        for (size_t c = 0; c < 3; ++c)
+            rgb[3 * i + c] = wide ? (float)doubles[CHANNELS * i + c] : floats[CHANNELS * i + c];
+    for (size_t i = 0; to->image->rgb64 && wide && i < pixels; ++i)
+        memcpy(to->image->rgb64 + 3 * (place + i), doubles + CHANNELS * i, 3 * sizeof *doubles);
+    for (size_t i = 0; to->image->truncation && i < pixels; ++i)
+        to->image->truncation[place + i] = wide ? (float)doubles[CHANNELS * i + 3] : floats[CHANNELS * i + 3];
+}
+
+/* Takes the values of the frame's samples. */
+static enum status take(struct course *course, struct dispatch_frame *frame, bool last)
+{
+    const struct dispatcher *dispatcher = course->tiles->dispatcher;
+    const struct portion *portion = &frame->portion;
+    struct reference_rays *rays = course->values->rays;
+    enum status status = last || rays ? dispatch_frame_fetch(dispatcher, frame) : STATUS_DONE;
+    course->end_ms = clock_ms();
+    if (status != STATUS_DONE)
+        return status;
+    const uint32_t *counts = frame->values;
+    for (size_t i = 0; rays && i < (size_t)portion->tile_width * portion->tile_height; ++i) {
+        rays->secondary += counts[CHANNELS * i];
+        rays->shadow += counts[CHANNELS * i + 1];
+    }
+    if (!last)
+        return STATUS_DONE;
+    const unsigned x = portion->tile_x - course->window.x, y = portion->tile_y - course->window.y;
+    for (unsigned row = 0; row < portion->tile_height; ++row)
+        copy_row(frame, dispatcher->value_type, (size_t)row * portion->tile_width, portion->tile_width,
+                 (size_t)(y + row) * course->window.width + x, course->values);
+    progress_advance(course->progress, (uint64_t)portion->tile_width * portion->tile_height);
+    return STATUS_DONE;
+}
+
+/* Starts the frame's samples from the first on. */
+static enum status start_samples(struct course *course, struct dispatch_frame *frame, uint32_t first)
+{
+    const struct dispatcher *dispatcher = course->tiles->dispatcher;
+    frame->portion.first_sample = first;
+    frame->portion.end_sample =
+        first + smaller(dispatcher->size.samples, (uint32_t)dispatcher->info->scene->samples - first);
+    frame->portion.goes_on = 0;
+    frame->portion.most_turns = course->tiles->turns;
+    return dispatch_frame_start(dispatcher, frame);
+}
+
+static enum status start_next_tile(struct course *course, struct dispatch_frame *frame)
+{
+    const struct tiles *tiles = course->tiles;
+    const struct dispatch_size *size = &tiles->dispatcher->size;
+    const struct packed_scene *scene = tiles->dispatcher->info->scene;
+    const unsigned rows = size->rows * size->group_height;
+    if (course->x == 0) {
+        unsigned height = smaller(tiles->height, tiles->pixels / smaller(tiles->pixels, tiles->width));
+        height -= height > rows ? height % rows : 0;
+        course->row_height = smaller(height, course->window.height - course->y);
+    }
+    frame->portion = (struct portion){
+        .tile_x = course->window.x + course->x,
+        .tile_y = course->window.y + course->y,
+        .tile_width = smaller(tiles->width, course->window.width - course->x),
+        .tile_height = course->row_height,
+        .picture_width = (uint32_t)scene->width,
+        .picture_height = (uint32_t)scene->height,
+    };
+    course->x += frame->portion.tile_width;
+    if (course->x == course->window.width) {
+        course->x = 0;
+        course->y += course->row_height;
+    }
+    return start_samples(course, frame, 0);
+}
+
+/* More or less of a quantity, where a dispatch took too short or too long. */
+static uint32_t adapted(uint32_t quantity, double took_ms, uint32_t least, uint32_t most)
+{
+    if (took_ms > 2 * goal_ms && quantity / 2 >= least)
+        return quantity / 2;
+    if (took_ms < goal_ms / 2)
+        return quantity > most / 2 ? most : 2 * quantity;
+    return quantity;
+}
+
+/* Waits for the frame, and has it go on with its tile if that is not finished. */
+static enum status advance(struct course *course, struct dispatch_frame *frame)
+{
+    enum { LEAST_PIXELS = 4096 };
+    struct tiles *tiles = course->tiles;
+    const struct dispatch_size *size = &tiles->dispatcher->size;
+    const uint32_t samples = (uint32_t)tiles->dispatcher->info->scene->samples;
+    bool finished;
+    double device_ms = 0;
+    enum status status = dispatch_frame_wait(tiles->dispatcher, frame, &device_ms, &finished);
+    course->device_ms += device_ms;
+    if (status == STATUS_DONE && interrupt_requested())
+        status = STATUS_INTERRUPTED;
+    if (status != STATUS_DONE)
+        return status;
+    tiles->turns = adapted(tiles->turns, device_ms, 1, size->most_turns);
+    if (!frame->portion.goes_on)
+        tiles->pixels = adapted(tiles->pixels, device_ms, LEAST_PIXELS, size->tile_pixels);
+    if (!finished) {
+        frame->portion.goes_on = 1;
+        frame->portion.most_turns = tiles->turns;
+        return dispatch_frame_start(tiles->dispatcher, frame);
+    }
+    const uint32_t end = frame->portion.end_sample;
+    status = take(course, frame, end == samples);
+    return status == STATUS_DONE && end < samples ? start_samples(course, frame, end) : status;
+}
+
+/* Has each frame render tiles until there are none left. */
+static enum status run(struct course *course)
+{
+    struct tiles *tiles = course->tiles;
+    enum status status = STATUS_DONE;
+    bool under_way = true;
+    while (status == STATUS_DONE && under_way) {
+        under_way = false;
+        for (unsigned i = 0; i < tiles->frame_count && status == STATUS_DONE; ++i) {
+            struct dispatch_frame *frame = &tiles->frames[i];
+            if (frame->under_way)
+                status = advance(course, frame);
+            if (status == STATUS_DONE && !frame->under_way && course->y < course->window.height)
+                status = start_next_tile(course, frame);
+            under_way = under_way || frame->under_way;
+        }
+    }
+    return status;
+}
+
+enum status tiles_render(struct tiles *tiles, struct window window, const struct tracer_values *values,
+                         struct progress *progress, struct tracer_times *times)
+{
+    struct course course = {.tiles = tiles, .window = window, .values = values, .progress = progress};
+    *times = (struct tracer_times){0};
+    if (values->rays)
+        *values->rays = (struct reference_rays){.primary = (uint64_t)window.width * window.height *
+                                                           (uint64_t)tiles->dispatcher->info->scene->samples};
+    enum status status = interrupt_requested() ? STATUS_INTERRUPTED : require_frames(tiles, &window);
+    const double start = clock_ms();
+    if (status == STATUS_DONE)
+        status = run(&course);
+    /* the other frame, after a failure */
+    for (unsigned i = 0; i < tiles->frame_count; ++i)
+        if (tiles->frames[i].under_way)
+            dispatch_frame_wait(tiles->dispatcher, &tiles->frames[i], NULL, &(bool){false});
+    *times = (struct tracer_times){.dispatch_ms = course.end_ms - start, .device_ms = course.device_ms};
+    return status;
+}

@@ -1,0 +1,146 @@
+// A pixel, sample after sample: what its rays bring, what it is charged for those that are not traced, and its values in
+// the picture.
+
+layout(std430, set = 0, binding = 5) buffer Picture { real4 picture[]; }; // the tile: RGB and charges; sums until the last sample
+layout(std430, set = 0, binding = 5) buffer Counts { uvec4 counts[]; }; // the same memory, for outputs that are integers
+
+const bool INTEGERS = OUTPUT == OUTPUT_RAYS || OUTPUT == OUTPUT_SIGNATURE;
+const bool CHARGED = CHARGES || PRUNES || RECORDS;
+
+struct Pixel {
+    real3 radiance; // sum over the samples
+    real3 leaves, rounding; // of the sample: the rounded sum of what its rays see, and what rounding took from it
+    real threshold; // of the sample: rays of smaller weight are left out
+    real charge; // of the sample, for rays that are not traced, see ROUND_UP
+    real cut_off; // what of that is for rays that MAX_BOUNCES cut off
+    real charges; // of the samples before
+    uint seed;
+    uint sample_index;
+    Tally tally;
+};
+
+// Adds the most that a ray of this weight could have brought, rounded up.
+real charge(real charges, real weight)
+{
+    exact real sum = (charges + weight * real(hoisted_view.truncation.RADIANCE_BOUND)) * real(ROUND_UP);
+    return sum;
+}
+
+// Whether a ray of this weight is to be traced; where it is not, the sample has been charged for it.
+bool is_traced(inout Pixel pixel, real weight)
+{
+    bool traced = weight > real(SMALLEST_WEIGHT) && !(PRUNES && weight < pixel.threshold);
+    if (CHARGED)
+        pixel.charge = traced ? pixel.charge : charge(pixel.charge, weight);
+    return traced;
+}
+
+// A leaf of the ray tree: what a ray sees that ends there. The exact rounding error of each sum is kept (Knuth, TAOCP 2,
+// 4.2.2), so that leaving out rays changes the picture by what they would have brought, and not by how the others
+// round.
+void add_leaf(inout Pixel pixel, real3 leaf)
+{
+    if (!GLASS) { // the sample's only leaf
+        pixel.leaves = leaf;
+        return;
+    }
+    exact real3 sum = pixel.leaves + leaf;
+    exact real3 added = sum - pixel.leaves;
+    exact real3 rounding = pixel.rounding + ((pixel.leaves - (sum - added)) + (leaf - added));
+    pixel.leaves = sum;
+    pixel.rounding = rounding;
+}
+
+void begin_attempt(inout Pixel pixel, real threshold)
+{
+    pixel.threshold = threshold;
+    pixel.leaves = real3(0);
+    pixel.rounding = real3(0);
+    pixel.charge = real(0);
+    pixel.cut_off = real(0);
+}
+
+void begin_sample(inout Pixel pixel)
+{
+    begin_attempt(pixel, PRUNES ? real(hoisted_view.truncation.FIRST_THRESHOLD) : real(0));
+    begin_sample_events();
+}
+
+uint pixel_seed(uvec2 position)
+{
+    return SAMPLES > 1 || QUAD_LIGHTS > 0 ? hash(hash(position.x) + position.y) : 0u;
+}
+
+void begin_pixel(out Pixel pixel, uvec2 position, uint place)
+{
+    pixel.radiance = real3(0);
+    pixel.charges = real(0);
+    pixel.sample_index = first_sample;
+    pixel.tally = Tally(0u, 0u, 0u);
+    pixel.seed = pixel_seed(position);
+    if (SAMPLES_APART && INTEGERS)
+        pixel.tally.signature = first_sample > 0u ? counts[place].z : 0u; // rays are counted by the dispatch
+    if (SAMPLES_APART && !INTEGERS) {
+        if (first_sample > 0u) {
+            pixel.radiance = picture[place].xyz;
+            pixel.charges = picture[place].w;
+        }
+    }
+    begin_sample(pixel);
+}
+
+// Whether the finished sample has left out more than it may, and a lower threshold can help.
+bool needs_another_attempt(Pixel pixel)
+{
+    real allowance = real(hoisted_view.truncation.ALLOWANCE);
+    return PRUNES && pixel.threshold > real(0) && pixel.charge > allowance && pixel.cut_off <= allowance;
+}
+
+// What is left out falls about as the root of the threshold where rays multiply, and with it where they do not.
+real next_threshold(Pixel pixel)
+{
+    exact real fits = real(hoisted_view.truncation.ALLOWANCE) - pixel.cut_off;
+    exact real left_out = pixel.charge - pixel.cut_off;
+    exact real ratio = divide(fits, left_out);
+    exact real threshold = pixel.threshold * ratio * ratio * real(0.25);
+    return threshold > real(SMALLEST_WEIGHT) ? threshold : real(0);
+}
+
+// Adds the sample whose ray tree has been traced to the pixel, or begins it again with a lower threshold. Whether the
+// pixel has no samples left.
+bool end_sample(inout Pixel pixel)
+{
+    if (PRUNES && needs_another_attempt(pixel)) {
+        begin_attempt(pixel, next_threshold(pixel));
+        begin_attempt_events();
+        ++pixel.tally.secondary_rays;
+        return false;
+    }
+    exact real3 sample_radiance = pixel.leaves + pixel.rounding;
+    exact real3 radiance = pixel.radiance + sample_radiance;
+    exact real charges = (pixel.charges + pixel.charge) * real(ROUND_UP);
+    emit_sample(sample_radiance, pixel.charge);
+    pixel.radiance = radiance;
+    pixel.charges = charges;
+    ++pixel.sample_index;
+    if (pixel.sample_index < samples_end)
+        begin_sample(pixel);
+    return pixel.sample_index >= samples_end;
+}
+
+void store(uint place, Pixel pixel)
+{
+    if (INTEGERS) {
+        counts[place] = uvec4(pixel.tally.secondary_rays, pixel.tally.shadow_rays, pixel.tally.signature, 0u);
+        return;
+    }
+    exact real3 value = pixel.radiance;
+    if (samples_end == uint(SAMPLES)) {
+        for (int c = 0; c < 3; ++c) {
+            value[c] = SAMPLES > 1 ? divide(value[c], real(SAMPLES)) : value[c];
+            value[c] = value[c] < real(SMALLEST_WEIGHT) ? real(0) : value[c]; // a NaN stays to be seen
+        }
+        emit_pixel(value);
+    }
+    picture[place] = real4(value, CHARGED ? pixel.charges : real(0));
+}

@@ -1,0 +1,43 @@
+. "$(dirname "$0")/lib.sh"
+
+export VK_ADD_LAYER_PATH=$LAYER VK_INSTANCE_LAYERS=VK_LAYER_VKWHITTED_pretend
+
+# Staging buffers, a row an invocation, groups of 8x8, no subgroup operations: in every bit the same.
+agreement_as_graphics_card() {
+    export PRETEND_GPU=1
+    expect 0 "$VKWHITTED" devices
+    said 'pretended graphics card' out
+    said 'type            discrete GPU' out
+    expect 0 "$VKWHITTED" check -q --validate --size 97x61 "$SOURCE_DIR"/scenes/figure_*.yaml "$SOURCE_DIR"/scenes/hard/*.yaml
+    expect 0 "$VKWHITTED" check -q --size 60x40 --samples 3 --light-samples 5 "$SOURCE_DIR"/scenes/figure_*.yaml
+    expect 0 "$VKWHITTED" check -q --size 30x20 --max-bounces 64 "$SOURCE_DIR/scenes/hard/diamond.yaml"
+    expect 0 "$VKWHITTED" check -q --size 4x4 --light-samples 65536 "$SOURCE_DIR/scenes/figure_2b.yaml"
+}
+
+# A dispatch has at least a million pixels or the whole picture, and at most 2 % of invocations outside of it.
+dispatch_sizes() {
+    export PRETEND_GPU=1 PRETEND_LOG=$PWD/dispatches
+    expect 0 "$VKWHITTED" render -q --size 1920x1080 "$figure"
+    tail -n +2 dispatches | awk '{ n += $1 * $2 * 64 } END { exit !(NR == 1 && n <= 1.02 * 1920 * 1080) }' ||
+        fail "$(cat dispatches)"
+    rm dispatches
+    expect 0 "$VKWHITTED" render -q --size 1200x900 --samples 64 --max-bounces 1 "$figure"
+    tail -n +2 dispatches | awk '{ n += $1 * $2 * 64 } END { exit !(NR == 2 && n <= 2.04 * 1200 * 900) }' ||
+        fail "$(cat dispatches)"
+}
+
+# A lost device, and no memory: a message, status 3 and nothing half-written.
+failing_calls() {
+    export PRETEND_FAIL
+    for failure in vkQueueSubmit:2:-4 vkGetFenceStatus:2:-4 vkAllocateMemory:4:-2 vkCreateComputePipelines:2:-2; do
+        PRETEND_FAIL=$failure
+        code='VK_ERROR_(DEVICE_LOST|OUT_OF_DEVICE_MEMORY)'
+        refused 3 "${failure%%:*}.*: $code" render $small -o a.png "$figure"
+        refused 3 "${failure%%:*}.*: $code" check $small "$figure"
+        case $failure in *:-4) refused 3 "${failure%%:*}: $code" bench --quick -q $small "$figure" ;; esac
+        refused 3 "${failure%%:*}.*: $code" pixel $small "$figure" 30 20
+        only_files
+    done
+}
+
+"$1"
