@@ -61,6 +61,12 @@ foreach(figure figure_2b figure_3c figure_4)
                          agreement/inexact_device_uncorrected_differs/${figure}/${size}
                          PROPERTIES LABELS agreement TIMEOUT 300)
 endforeach()
+# The probe judges another shader than the picture's: render compares some pixels, and writes no wrong picture.
+add_test(NAME cli/render/misjudged_device
+         COMMAND sh -c "rm -f misjudged.png; \"$0\" render \"$1\" -o misjudged.png 2>&1; test $? -eq 3 && ! test -e misjudged.png && echo refused"
+                 $<TARGET_FILE:vkwhitted_misjudged> ${PROJECT_SOURCE_DIR}/scenes/figure_4.yaml)
+set_tests_properties(cli/render/misjudged_device PROPERTIES LABELS cli PASS_REGULAR_EXPRESSION
+                     "is not the reference's, although.*refused")
 add_test(NAME cli/devices/inexact COMMAND vkwhitted_inexact devices --validate)
 set_tests_properties(cli/devices/inexact PROPERTIES LABELS cli PASS_REGULAR_EXPRESSION
                      "arithmetic +÷ inexact, √ inexact, no contraction: corrected")

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/json.h"
+#include "check/spot_check.h"
 #include "tracer/job.h"
 
 static bool writes_exr(const struct options *options)
@@ -90,7 +91,10 @@ enum status command_render(const struct options *options)
             context ? render_on_device(context, &job.plan, &rendering) : render_on_cpu(&job.plan, &rendering);
     if (status == STATUS_DONE) {
         rendering.setup_ms += context_ms;
-        status = deliver(options, &job, &rendering, context);
+        if (context && !job.plan.fast)
+            status = spot_check(&job.plan, &rendering.image, context->properties.deviceName);
+        if (status == STATUS_DONE)
+            status = deliver(options, &job, &rendering, context);
         image_destroy(&rendering.image);
     }
     job_destroy(&job);
