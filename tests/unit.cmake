@@ -13,6 +13,7 @@ target_link_options(unit_bench PRIVATE -Wl,--wrap=calloc,--wrap=malloc) # to hav
 add_unit_test(camera_motion)
 add_unit_test(compare)
 add_unit_test(fit)
+add_unit_test(float_controls)
 add_unit_test(image)
 add_unit_test(number)
 add_unit_test(pack)

@@ -47,6 +47,7 @@ enum status dispatcher_create(const struct dispatcher_info *info, struct dispatc
             .name = "whitted.comp",
             .code = info->options.code.words ? info->options.code
                                              : whitted_spirv(choice.variant, choice.scene_in_storage),
+            .fast = info->options.fast,
             .constants = constants,
             .constant_count = CONSTANTS,
             .bindings = bindings,

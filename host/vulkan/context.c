@@ -164,9 +164,13 @@ static bool inspect_device(struct vulkan_context *context, VkPhysicalDevice devi
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES,
         .pNext = &context->driver,
     };
+    context->float_controls = (VkPhysicalDeviceFloatControlsProperties){
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES,
+        .pNext = &subgroup,
+    };
     VkPhysicalDeviceProperties2 properties = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
-        .pNext = &subgroup,
+        .pNext = &context->float_controls,
     };
     context->physical_device = device;
     context->driver = (VkPhysicalDeviceDriverProperties){

@@ -32,6 +32,7 @@ struct vulkan_context {
     VkPhysicalDeviceProperties properties;
     VkPhysicalDeviceDriverProperties driver;
     VkPhysicalDeviceMemoryProperties memory;
+    VkPhysicalDeviceFloatControlsProperties float_controls;
     bool has_float64;       /* enabled */
     uint32_t subgroup_size; /* invocations that run side by side */
     VkDevice device;

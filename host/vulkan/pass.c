@@ -1,5 +1,6 @@
 #include "vulkan/pass.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -47,6 +48,10 @@ static enum status create_pipeline(struct vulkan_pass *pass, const struct pass_i
 {
     struct vulkan_context *context = pass->context;
     VkShaderModule module = VK_NULL_HANDLE;
+    struct spirv declared = info->fast ? (struct spirv){0} : float_controls_declare(context, info->code);
+    const struct spirv code = info->fast ? info->code : declared;
+    if (!code.words)
+        return STATUS_UNABLE;
     VkSpecializationMapEntry entries[PASS_MOST_CONSTANTS];
     for (uint32_t i = 0; i < info->constant_count; ++i)
         entries[i] = (VkSpecializationMapEntry){
@@ -57,8 +62,8 @@ static enum status create_pipeline(struct vulkan_pass *pass, const struct pass_i
     VULKAN_CALL(context, vkCreateShaderModule, context->device,
                 &(VkShaderModuleCreateInfo){
                     .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                    .codeSize = info->code.size,
-                    .pCode = info->code.words,
+                    .codeSize = code.size,
+                    .pCode = code.words,
                 },
                 NULL, &module);
     VULKAN_CALL(context, vkCreateComputePipelines, context->device, VK_NULL_HANDLE, 1,
@@ -82,11 +87,13 @@ static enum status create_pipeline(struct vulkan_pass *pass, const struct pass_i
                 },
                 NULL, &pass->pipeline);
     vkDestroyShaderModule(context->device, module, NULL);
+    free((void *)(uintptr_t)declared.words);
     vulkan_name(pass->context, VK_OBJECT_TYPE_PIPELINE, (uint64_t)pass->pipeline, info->name);
     return STATUS_DONE;
 
 error:
     vkDestroyShaderModule(context->device, module, NULL);
+    free((void *)(uintptr_t)declared.words);
     return STATUS_UNABLE;
 }
 

@@ -1,13 +1,7 @@
 #ifndef VKWHITTED_VULKAN_PASS_H
 #define VKWHITTED_VULKAN_PASS_H
 
-#include "vulkan/context.h"
-
-/* A compiled shader. */
-struct spirv {
-    const uint32_t *words;
-    size_t size; /* bytes */
-};
+#include "vulkan/float_controls.h"
 
 /* A specialization constant, 32 bits. */
 struct pass_constant {
@@ -17,8 +11,9 @@ struct pass_constant {
 enum { PASS_MOST_BINDINGS = 16, PASS_MOST_CONSTANTS = 40 };
 
 struct pass_info {
-    const char *name; /* for debuggers */
-    struct spirv code;
+    const char *name;                      /* for debuggers */
+    struct spirv code;                     /* 1.4 or later */
+    bool fast;                             /* the device need not be told of its arithmetic */
     const struct pass_constant *constants; /* at most PASS_MOST_CONSTANTS */
     uint32_t constant_count;
     const VkDescriptorType *bindings; /* of set 0: uniform or storage buffers; at most PASS_MOST_BINDINGS */
