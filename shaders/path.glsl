@@ -11,9 +11,9 @@ struct Path {
 };
 
 // The reflections still to be traced: at most one for every bounce count. A small stack lies in registers: chosen by
-// selects, they cost lavapipe less than memory. A large one lies in a buffer.
+// selects, they cost lavapipe less than memory. A large one lies in a buffer, and one that the next dispatch may need.
 const int STACK_ROOM = GLASS && MAX_BOUNCES > 0 ? MAX_BOUNCES : 1;
-const bool STACK_IN_REGISTERS = STACK_ROOM <= 8;
+const bool STACK_IN_REGISTERS = (RESUMABLE ? MAX_BOUNCES + 9 : STACK_ROOM) <= 8;
 const int REGISTERS = STACK_IN_REGISTERS ? STACK_ROOM : 1;
 real4 stack_origin[REGISTERS], stack_direction[REGISTERS];
 uint stack_branch[REGISTERS];
@@ -63,15 +63,6 @@ void set_path(inout Path path, real4 origin_weight, real4 direction_state, uint 
     path.branch = branch;
 }
 
-void store_pending(int i, real4 origin_weight, real4 direction_state, uint branch)
-{
-    uint entry = uint(i) * invocations() + invocation();
-    stacks[entry].origin_weight = origin_weight;
-    stacks[entry].direction_state = direction_state;
-    if (LIGHTS_TELL_BRANCHES)
-        stack_branches[entry] = branch;
-}
-
 void push(Path path, inout int pending)
 {
     real4 origin_weight = real4(path.ray.origin, path.weight);
@@ -84,7 +75,11 @@ void push(Path path, inout int pending)
                 stack_branch[i] = path.branch;
             }
     } else {
-        store_pending(pending, origin_weight, direction_state, path.branch);
+        uint entry = uint(pending) * invocations() + invocation();
+        stacks[entry].origin_weight = origin_weight;
+        stacks[entry].direction_state = direction_state;
+        if (LIGHTS_TELL_BRANCHES)
+            stack_branches[entry] = path.branch;
     }
     ++pending;
 }

@@ -11,6 +11,14 @@ struct SavedWork {
 layout(std430, set = 0, binding = 6) buffer SavedWorks { SavedWork saved_works[]; };
 layout(std430, set = 0, binding = 9) buffer Outcome { uint unfinished; }; // not 0: some invocation is
 
+Work no_work()
+{
+    const real3 zero = real3(0);
+    Path path = Path(Ray(zero, zero, -1, false), real(0), 0, 0u);
+    Pixel pixel = Pixel(zero, zero, zero, real(0), real(0), real(0), real(0), 0u, 0u, Tally(0u, 0u, 0u));
+    return Work(0u, 0u, false, false, 0, path, pixel, Lighting(0u, zero, real(0)));
+}
+
 bool is_done(Work work)
 {
     return !work.busy && work.later == 0u;
@@ -32,10 +40,6 @@ void save(Work work)
     saved_works[i].threshold.x = work.pixel.threshold;
     saved_works[i].pixel = uvec4(work.pixel.sample_index, work.path.branch, work.light.next, work.pixel.tally.signature);
     saved_works[i].rays = uvec4(work.pixel.tally.secondary_rays, work.pixel.tally.shadow_rays, 0, 0);
-    if (STACK_IN_REGISTERS)
-        [[unroll]] for (int entry = 0; entry < STACK_ROOM; ++entry)
-            if (entry < work.pending)
-                store_pending(entry, stack_origin[entry], stack_direction[entry], stack_branch[entry]);
 }
 
 void load(out Work work, uint first_row)
@@ -61,11 +65,4 @@ void load(out Work work, uint first_row)
     work.pixel.seed = pixel_seed(tile_origin + uvec2(gl_GlobalInvocationID.x, first_row + work.row));
     work.pixel.sample_index = saved.pixel.x;
     work.pixel.tally = Tally(saved.rays.x, saved.rays.y, saved.pixel.w);
-    if (STACK_IN_REGISTERS)
-        [[unroll]] for (int entry = 0; entry < STACK_ROOM; ++entry) {
-            uint place = uint(entry) * invocations() + i;
-            stack_origin[entry] = stacks[place].origin_weight;
-            stack_direction[entry] = stacks[place].direction_state;
-            stack_branch[entry] = LIGHTS_TELL_BRANCHES ? stack_branches[place] : 0u;
-        }
 }

@@ -270,14 +270,7 @@ void main()
     uint share = gl_NumWorkGroups.y / tile.threads;
     uint group_y = gl_WorkGroupID.y % share * tile.threads + gl_WorkGroupID.y / share;
     uint first_row = (group_y * gl_WorkGroupSize.y + gl_LocalInvocationID.y) * ROWS;
-    Work work;
-    work.row = 0u;
-    work.busy = false;
-    work.fresh = false;
-    work.pending = 0;
-    begin_light(work.light);
-    begin_pixel(work.pixel, uvec2(0), 0u);
-    begin_path(work.path, uvec2(0), work.pixel);
+    Work work = no_work();
     if (PRIMARY_RAYS_FIRST)
         work.later = render_primary_rays(first_row, goes_on ? 0u : ROWS);
     else

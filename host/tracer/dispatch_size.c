@@ -41,8 +41,20 @@ static uint64_t most_rays(const struct packed_scene *scene)
     return rays * (scene->view.truncation.ALLOWANCE >= 0 ? 45 : 1);
 }
 
+/* Whether primary rays should have a loop of their own, before the one over rays. On a processor with long
+ * vectors (lavapipe) they should, as work under a mask costs so much there; but where there are other rays it
+ * is a copy of the tracer, for whose compilation (0.5 s) a picture must be large, and for which SwiftShader,
+ * with vectors of 4, takes 10 s. */
+static bool primary_rays_pay(const struct vulkan_context *context, const struct packed_scene *scene)
+{
+    const bool long_vectors =
+        context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU && context->subgroup_size >= 8;
+    const uint64_t samples = (uint64_t)scene->width * (uint64_t)scene->height * (uint64_t)scene->samples;
+    return long_vectors && (most_rays(scene) == 1 || samples >= UINT64_C(1) << 17);
+}
+
 /* Loops may be unrolled or not: all their turns are counted. */
-static void choose_turns(const struct packed_scene *scene, bool long_vectors, struct dispatch_size *size)
+static void choose_turns(const struct packed_scene *scene, bool primary_first, struct dispatch_size *size)
 {
     const uint64_t objects = (uint64_t)(scene->sphere_count + scene->plane_count);
     const uint64_t points = (uint64_t)scene->point_light_count +
@@ -55,13 +67,16 @@ static void choose_turns(const struct packed_scene *scene, bool long_vectors, st
                                        ? at_least_1(points)
                                        : at_least_1((MOST_TURNS - smaller(ray, MOST_TURNS)) / point);
     const uint64_t turn = ray + points_a_turn * point;
-    size->primary_rays_first = long_vectors && points_a_turn >= points;
+    size->primary_rays_first = primary_first && points_a_turn >= points;
     size->light_points_a_turn = (uint32_t)points_a_turn;
     size->most_turns = (uint32_t)at_least_1(MOST_TURNS / turn);
     size->rows = (uint32_t)at_least_1(smaller(size->rows, MOST_TURNS / turn));
     size->samples = (uint32_t)smaller((uint64_t)scene->samples, at_least_1(MOST_TURNS / (size->rows * turn)));
-    const uint64_t turns = most_rays(scene) * at_least_1(points / points_a_turn + 1);
-    size->resumable = turns > size->most_turns / (size->rows * size->samples);
+    const uint64_t turns = most_rays(scene) * (points / points_a_turn + 1) * size->samples;
+    while (size->rows > 4 && turns * size->rows > size->most_turns &&
+           turns * size->rows / 4 <= size->most_turns)
+        size->rows /= 2; /* which costs less than to go on in the next dispatch */
+    size->resumable = turns * size->rows > size->most_turns;
 }
 
 /* So that a dispatch ends well within a second, and its buffers fit. */
@@ -80,10 +95,7 @@ static void choose_tile(const struct vulkan_context *context, const struct packe
 struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
                                           const struct packed_scene *scene, size_t value_size)
 {
-    /* A processor's lanes share the loading of the scene over many pixels; a GPU wants many invocations.
-     * Where vectors are long (lavapipe), work under a mask costs so much that the primary rays get a loop of
-     * their own; a copy of the tracer, for which SwiftShader, with vectors of 4, would compile three times as
-     * long. */
+    /* A processor's lanes share the loading of the scene over many pixels; a GPU wants many invocations. */
     struct dispatch_size size = {
         .on_processor = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU,
         .group_width = 8,
@@ -96,12 +108,9 @@ struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
         size.rows = 16;
         size.threads = (uint32_t)sysconf(_SC_NPROCESSORS_ONLN);
     }
-    const bool long_vectors = size.on_processor && context->subgroup_size >= 8;
-    choose_turns(scene, long_vectors, &size);
+    choose_turns(scene, primary_rays_pay(context, scene), &size);
     choose_tile(context, scene, value_size, &size);
-    size.stack_room = has_kind(scene, KIND_TRANSPARENT) && scene->max_bounces > 0 &&
-                              (size.resumable || scene->max_bounces > REGISTERS)
-                          ? (uint32_t)scene->max_bounces
-                          : 0;
+    if (has_kind(scene, KIND_TRANSPARENT) && (size.resumable || scene->max_bounces > REGISTERS))
+        size.stack_room = (uint32_t)scene->max_bounces;
     return size;
 }
