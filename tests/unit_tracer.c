@@ -93,7 +93,7 @@ static void group_shape(void **state)
  * anything, more than the picture. */
 static void tile_size(void **state)
 {
-    static const uint32_t tiles[] = {100, 1000, 4096, 77777};
+    static const uint32_t tiles[] = {100, 4096};
     (void)state;
     uint32_t real_limit = test_context->properties.limits.maxStorageBufferRange;
     for (size_t i = 0; i < sizeof tiles / sizeof *tiles; ++i) {
