@@ -86,7 +86,7 @@ add_cli_tests(check agreement difference tolerance allow heatmap json worst_stat
 add_cli_tests(bench without_device report compare bad_comparison options interrupted)
 set_tests_properties(cli/bench/compare PROPERTIES TIMEOUT 400)
 if(VKWHITTED_TESTS STREQUAL "all") # whole benches, which sanitizers see in the others, too
-    add_cli_tests(bench files chart)
+    add_cli_tests(bench files)
     set_tests_properties(cli/bench/files PROPERTIES TIMEOUT 400)
 endif()
 add_cli_tests(pixel agreement samples max_bounces max_error against json light_samples place options)
@@ -99,6 +99,7 @@ add_cli_tests(watch scene_edits_keep_the_pipeline shader_edits broken_and_repair
               saves device_lost)
 add_cli_tests(progress on_a_terminal not_elsewhere quiet)
 if(VKWHITTED_SLOW_TESTS)
+    add_cli_tests(bench chart)
     add_cli_tests(output size_16384)
     set_tests_properties(cli/output/size_16384 PROPERTIES LABELS "cli;slow" TIMEOUT 900)
 endif()

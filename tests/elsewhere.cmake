@@ -83,9 +83,9 @@ add_reference_build(clang_O3_native ${VKWHITTED_CLANG} -O3 -march=native)
 set(emulator ${VKWHITTED_QEMU_AARCH64})
 if(VKWHITTED_SLOW_TESTS)
     add_reference_build(aarch64_gcc_O0 ${VKWHITTED_AARCH64_GCC} -O0 -static)
+    add_reference_build(aarch64_clang_O3 ${VKWHITTED_CLANG} --target=aarch64-linux-gnu -O3 -static)
 endif()
 add_reference_build(aarch64_gcc_O3 ${VKWHITTED_AARCH64_GCC} -O3 -static)
-add_reference_build(aarch64_clang_O3 ${VKWHITTED_CLANG} --target=aarch64-linux-gnu -O3 -static)
 add_custom_target(reference_builds ALL DEPENDS ${programs})
 
 # SwiftShader takes 20 s to compile a pipeline.
