@@ -30,12 +30,9 @@ add_unit_test(text_file)
 
 # These open a device. The dear ones, with the same bits in all builds, run in one.
 set(device_modules)
-if(NOT VKWHITTED_TESTS STREQUAL "compiler")
-    list(APPEND device_modules tracer)
-endif()
 if(VKWHITTED_TESTS STREQUAL "all")
     add_unit_test(convergence)
-    list(APPEND device_modules pixel properties total_reflection truncation values)
+    list(APPEND device_modules pixel tracer properties total_reflection truncation values)
 endif()
 foreach(module IN LISTS device_modules)
     add_unit_test(${module})
