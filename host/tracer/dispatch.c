@@ -103,9 +103,9 @@ static enum status create_buffers(const struct dispatcher *dispatcher, uint32_t 
     };
     const struct dispatcher_info *info = dispatcher->info;
     const struct dispatch_size *size = &dispatcher->size;
-    const uint32_t excess = size->threads - 1; /* see dealt_threads() */
+    const uint32_t groups = groups_y(size, tile_height); /* and an excess, see dealt_threads() */
     const VkDeviceSize invocations = (VkDeviceSize)groups_x(size, tile_width) * size->group_width *
-                                     (groups_y(size, tile_height) + excess) * size->group_height;
+                                     (groups + groups / 64) * size->group_height;
     const VkDeviceSize doubled = value_size(&info->options) / sizeof(float);
     const VkDeviceSize picture_bytes = (VkDeviceSize)tile_width * tile_height * pixel_size(dispatcher);
     const size_t event_bytes = sizeof(struct EventHead) + EVENT_VALUES * value_size(&info->options);

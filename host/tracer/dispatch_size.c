@@ -89,7 +89,12 @@ static void choose_tile(const struct vulkan_context *context, const struct packe
         size->samples * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
     uint64_t pixels = (UINT64_C(1) << (size->on_processor ? 22 : 26)) / work_per_pixel;
     pixels = pixels < LEAST_PIXELS ? LEAST_PIXELS : smaller(pixels, MOST_PIXELS);
-    size->tile_pixels = (unsigned)smaller(pixels, limits->maxStorageBufferRange / (4 * value_size));
+    pixels = smaller(pixels, limits->maxStorageBufferRange / (4 * value_size));
+    if (size->stack_room > 0) { /* half of it for invocations that stick out of the tile */
+        const uint64_t stack_bytes = size->stack_room * SAVED_PATH_BYTES * (value_size / sizeof(float));
+        pixels = smaller(pixels, limits->maxStorageBufferRange / 2 / stack_bytes * size->rows);
+    }
+    size->tile_pixels = (unsigned)at_least_1(pixels);
 }
 
 struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
@@ -109,8 +114,8 @@ struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
         size.threads = (uint32_t)sysconf(_SC_NPROCESSORS_ONLN);
     }
     choose_turns(scene, primary_rays_pay(context, scene), &size);
-    choose_tile(context, scene, value_size, &size);
     if (has_kind(scene, KIND_TRANSPARENT) && (size.resumable || scene->max_bounces > REGISTERS))
         size.stack_room = (uint32_t)scene->max_bounces;
+    choose_tile(context, scene, value_size, &size);
     return size;
 }
