@@ -18,18 +18,17 @@ const int REGISTERS = STACK_IN_REGISTERS ? STACK_ROOM : 1;
 real4 stack_origin[REGISTERS], stack_direction[REGISTERS];
 uint stack_branch[REGISTERS];
 
-// All entries of a depth lie together, one for each invocation.
-struct SavedPath {
-    real4 origin_weight, direction_state;
-};
-layout(std430, set = 0, binding = 7) buffer Stacks { SavedPath stacks[]; };
-layout(std430, set = 0, binding = 8) buffer StackBranches { uint stack_branches[]; };
+// What an invocation keeps in memory, slot after slot; a slot of all invocations lies together. The first are for its work,
+// see resume.glsl, the others for the stack.
+layout(std430, set = 0, binding = 6) buffer SavedReals { real4 saved_reals[]; };
+layout(std430, set = 0, binding = 7) buffer SavedWords { uint saved_words[]; };
+const int STACK_REALS = RESUMABLE ? WORK_REALS : 0;
+const int STACK_WORDS = RESUMABLE ? WORK_WORDS : 0;
 
-uint invocations() { return gl_NumWorkGroups.x * gl_WorkGroupSize.x * gl_NumWorkGroups.y * gl_WorkGroupSize.y; }
-
-uint invocation()
+int saved_place(int slot)
 {
-    return gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
+    uvec2 all = gl_NumWorkGroups.xy * gl_WorkGroupSize.xy;
+    return int((uint(slot) * all.y + gl_GlobalInvocationID.y) * all.x + gl_GlobalInvocationID.x);
 }
 
 int path_state(Path path)
@@ -75,11 +74,10 @@ void push(Path path, inout int pending)
                 stack_branch[i] = path.branch;
             }
     } else {
-        uint entry = uint(pending) * invocations() + invocation();
-        stacks[entry].origin_weight = origin_weight;
-        stacks[entry].direction_state = direction_state;
+        saved_reals[saved_place(STACK_REALS + 2 * pending)] = origin_weight;
+        saved_reals[saved_place(STACK_REALS + 2 * pending + 1)] = direction_state;
         if (LIGHTS_TELL_BRANCHES)
-            stack_branches[entry] = path.branch;
+            saved_words[saved_place(STACK_WORDS + pending)] = path.branch;
     }
     ++pending;
 }
@@ -92,8 +90,9 @@ void pop(inout Path path, inout int pending)
             if (i == pending)
                 set_path(path, stack_origin[i], stack_direction[i], stack_branch[i]);
     } else {
-        uint entry = uint(pending) * invocations() + invocation();
-        set_path(path, stacks[entry].origin_weight, stacks[entry].direction_state,
-                 LIGHTS_TELL_BRANCHES ? stack_branches[entry] : 0u);
+        real4 origin_weight = saved_reals[saved_place(STACK_REALS + 2 * pending)];
+        real4 direction_state = saved_reals[saved_place(STACK_REALS + 2 * pending + 1)];
+        set_path(path, origin_weight, direction_state,
+                 LIGHTS_TELL_BRANCHES ? saved_words[saved_place(STACK_WORDS + pending)] : 0u);
     }
 }

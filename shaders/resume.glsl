@@ -1,15 +1,7 @@
 // What a dispatch leaves when it has used up its turns: the invocation's state, with which the next one goes on.
+// Its path lies on top of the stack.
 
-struct SavedWork {
-    real4 origin_weight, direction_state; // of the path
-    real4 radiance_charges, leaves_charge, rounding_cut_off;
-    real4 lit, threshold; // lit: the light so far, and what one quad light has brought; threshold: in x
-    uvec4 work;  // later, row, flags, pending
-    uvec4 pixel; // sample_index, branch, next light point, signature
-    uvec4 rays; // secondary, shadow
-};
-layout(std430, set = 0, binding = 6) buffer SavedWorks { SavedWork saved_works[]; };
-layout(std430, set = 0, binding = 9) buffer Outcome { uint unfinished; }; // not 0: some invocation is
+layout(std430, set = 0, binding = 8) buffer Outcome { uint unfinished; }; // not 0: some invocation is
 
 Work no_work()
 {
@@ -24,45 +16,74 @@ bool is_done(Work work)
     return !work.busy && work.later == 0u;
 }
 
-void save(Work work)
+void exchange(bool saves, int slot, inout real3 xyz, inout real w)
 {
-    uint i = invocation();
-    saved_works[i].work = uvec4(work.later, work.row, uint(work.busy) | uint(work.fresh) << 1, uint(work.pending));
-    if (is_done(work))
-        return;
-    atomicOr(unfinished, 1u);
-    saved_works[i].origin_weight = real4(work.path.ray.origin, work.path.weight);
-    saved_works[i].direction_state = real4(work.path.ray.direction, packed_state(work.path));
-    saved_works[i].radiance_charges = real4(work.pixel.radiance, work.pixel.charges);
-    saved_works[i].leaves_charge = real4(work.pixel.leaves, work.pixel.charge);
-    saved_works[i].rounding_cut_off = real4(work.pixel.rounding, work.pixel.cut_off);
-    saved_works[i].lit = real4(work.light.sum, work.light.quad_sum);
-    saved_works[i].threshold.x = work.pixel.threshold;
-    saved_works[i].pixel = uvec4(work.pixel.sample_index, work.path.branch, work.light.next, work.pixel.tally.signature);
-    saved_works[i].rays = uvec4(work.pixel.tally.secondary_rays, work.pixel.tally.shadow_rays, 0, 0);
+    if (saves) {
+        saved_reals[saved_place(slot)] = real4(xyz, w);
+    } else {
+        real4 saved = saved_reals[saved_place(slot)];
+        xyz = saved.xyz;
+        w = saved.w;
+    }
 }
 
-void load(out Work work, uint first_row)
+void exchange(bool saves, int slot, inout uint word)
 {
-    uint i = invocation();
-    SavedWork saved = saved_works[i];
-    set_path(work.path, saved.origin_weight, saved.direction_state, saved.pixel.y);
-    work.later = saved.work.x;
-    work.row = saved.work.y;
-    work.busy = (saved.work.z & 1u) != 0u;
-    work.fresh = (saved.work.z & 2u) != 0u;
-    work.pending = int(saved.work.w);
-    work.light.sum = saved.lit.xyz;
-    work.light.quad_sum = saved.lit.w;
-    work.light.next = saved.pixel.z;
-    work.pixel.radiance = saved.radiance_charges.xyz;
-    work.pixel.charges = saved.radiance_charges.w;
-    work.pixel.leaves = saved.leaves_charge.xyz;
-    work.pixel.charge = saved.leaves_charge.w;
-    work.pixel.rounding = saved.rounding_cut_off.xyz;
-    work.pixel.cut_off = saved.rounding_cut_off.w;
-    work.pixel.threshold = saved.threshold.x;
+    if (saves)
+        saved_words[saved_place(slot)] = word;
+    else
+        word = saved_words[saved_place(slot)];
+}
+
+// Saves or loads what comes with a pixel, as far as the scene has a use for it.
+void exchange(bool saves, inout Work work)
+{
+    if (GLASS || CHARGED)
+        exchange(saves, 0, work.pixel.leaves, work.pixel.charge);
+    if (GLASS || PRUNES)
+        exchange(saves, 1, work.pixel.rounding, work.pixel.cut_off);
+    if (SAMPLES > 1)
+        exchange(saves, 2, work.pixel.radiance, work.pixel.charges);
+    if (LIGHTS_TAKE_TURNS)
+        exchange(saves, 3, work.light.sum, work.light.quad_sum);
+    real3 unused = real3(0);
+    if (PRUNES)
+        exchange(saves, 4, unused, work.pixel.threshold);
+    if (SAMPLES > 1)
+        exchange(saves, 2, work.pixel.sample_index);
+    if (LIGHTS_TAKE_TURNS)
+        exchange(saves, 3, work.light.next);
+    if (INTEGERS) {
+        exchange(saves, 4, work.pixel.tally.secondary_rays);
+        exchange(saves, 5, work.pixel.tally.shadow_rays);
+        exchange(saves, 6, work.pixel.tally.signature);
+    }
+}
+
+void save(Work work)
+{
+    bool done = is_done(work);
+    if (!done)
+        push(work.path, work.pending);
+    saved_words[saved_place(0)] = work.later;
+    saved_words[saved_place(1)] = uint(work.pending) << 7 | work.row << 2 | uint(work.fresh) << 1 | uint(work.busy);
+    if (done)
+        return;
+    atomicOr(unfinished, 1u);
+    exchange(true, work);
+}
+
+void load(inout Work work, uint first_row)
+{
+    uint place = saved_words[saved_place(1)];
+    work.later = saved_words[saved_place(0)];
+    work.pending = int(place >> 7);
+    work.row = place >> 2 & 31u;
+    work.fresh = (place & 2u) != 0u;
+    work.busy = (place & 1u) != 0u;
+    if (is_done(work))
+        return;
+    exchange(false, work);
+    pop(work.path, work.pending);
     work.pixel.seed = pixel_seed(tile_origin + uvec2(gl_GlobalInvocationID.x, first_row + work.row));
-    work.pixel.sample_index = saved.pixel.x;
-    work.pixel.tally = Tally(saved.rays.x, saved.rays.y, saved.pixel.w);
 }

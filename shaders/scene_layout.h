@@ -46,6 +46,10 @@ typedef struct PackedSurface PackedSurface;
 #define OUTPUT_RAYS 1
 #define OUTPUT_SIGNATURE 2
 
+/* The slots of vectors and of words in which an invocation keeps its work between dispatches; behind them is its stack. */
+#define WORK_REALS 5
+#define WORK_WORDS 7
+
 /* What the direction of a ray, and its line projected along the normal of the parallel mirrors that reflect it, may
  * be off by after 1000 bounces, relative: a bounce loses less than 2^-20. */
 #define MIRROR_DRIFT 0.0009765625 /* 2^-10 */

@@ -95,9 +95,8 @@ static enum status create_buffers(const struct dispatcher *dispatcher, uint32_t 
         enum buffer_memory memory;
     } kinds[BINDINGS] = {
         [PICTURE] = {"tile of the picture", BUFFER_DEVICE},
-        [SAVED_WORKS] = {"saved work", BUFFER_DEVICE},
-        [STACKS] = {"stacks", BUFFER_DEVICE},
-        [STACK_BRANCHES] = {"branches on the stacks", BUFFER_DEVICE},
+        [SAVED_REALS] = {"saved real numbers", BUFFER_DEVICE},
+        [SAVED_WORDS] = {"saved words", BUFFER_DEVICE},
         [OUTCOME] = {"outcome", BUFFER_READBACK},
         [EVENTS] = {"events", BUFFER_READBACK},
     };
@@ -111,9 +110,8 @@ static enum status create_buffers(const struct dispatcher *dispatcher, uint32_t 
     const size_t event_bytes = sizeof(struct EventHead) + EVENT_VALUES * value_size(&info->options);
     const VkDeviceSize bytes[BINDINGS] = {
         [PICTURE] = picture_bytes,
-        [SAVED_WORKS] = size->resumable ? invocations * SAVED_WORK_BYTES * doubled : 0,
-        [STACKS] = invocations * size->stack_room * SAVED_PATH_BYTES * doubled,
-        [STACK_BRANCHES] = invocations * size->stack_room * sizeof(uint32_t),
+        [SAVED_REALS] = invocations * size->saved_reals * SAVED_REAL_BYTES * doubled,
+        [SAVED_WORDS] = invocations * size->saved_words * sizeof(uint32_t),
         [OUTCOME] = size->resumable ? sizeof(uint32_t) : 0,
         [EVENTS] = info->options.event_room > 0
                        ? sizeof(struct event_block) + info->options.event_room * event_bytes

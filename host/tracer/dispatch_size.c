@@ -79,6 +79,16 @@ static void choose_turns(const struct packed_scene *scene, bool primary_first, s
     size->resumable = turns * size->rows > size->most_turns;
 }
 
+/* The slots in which an invocation keeps its work and its stack. */
+static void choose_memory(const struct packed_scene *scene, struct dispatch_size *size)
+{
+    uint32_t entries = size->resumable; /* for the path under way */
+    if (has_kind(scene, KIND_TRANSPARENT) && (size->resumable || scene->max_bounces > REGISTERS))
+        entries += (uint32_t)scene->max_bounces;
+    size->saved_reals = (size->resumable ? WORK_REALS : 0) + 2 * entries;
+    size->saved_words = (size->resumable ? WORK_WORDS : 0) + entries;
+}
+
 /* So that a dispatch ends well within a second, and its buffers fit. */
 static void choose_tile(const struct vulkan_context *context, const struct packed_scene *scene,
                         size_t value_size, struct dispatch_size *size)
@@ -90,9 +100,9 @@ static void choose_tile(const struct vulkan_context *context, const struct packe
     uint64_t pixels = (UINT64_C(1) << (size->on_processor ? 22 : 26)) / work_per_pixel;
     pixels = pixels < LEAST_PIXELS ? LEAST_PIXELS : smaller(pixels, MOST_PIXELS);
     pixels = smaller(pixels, limits->maxStorageBufferRange / (4 * value_size));
-    if (size->stack_room > 0) { /* half of it for invocations that stick out of the tile */
-        const uint64_t stack_bytes = size->stack_room * SAVED_PATH_BYTES * (value_size / sizeof(float));
-        pixels = smaller(pixels, limits->maxStorageBufferRange / 2 / stack_bytes * size->rows);
+    if (size->saved_reals > 0) { /* half of it for invocations that stick out of the tile */
+        const uint64_t saved_bytes = size->saved_reals * SAVED_REAL_BYTES * (value_size / sizeof(float));
+        pixels = smaller(pixels, limits->maxStorageBufferRange / 2 / saved_bytes * size->rows);
     }
     size->tile_pixels = (unsigned)at_least_1(pixels);
 }
@@ -114,8 +124,7 @@ struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
         size.threads = (uint32_t)sysconf(_SC_NPROCESSORS_ONLN);
     }
     choose_turns(scene, primary_rays_pay(context, scene), &size);
-    if (has_kind(scene, KIND_TRANSPARENT) && (size.resumable || scene->max_bounces > REGISTERS))
-        size.stack_room = (uint32_t)scene->max_bounces;
+    choose_memory(scene, &size);
     choose_tile(context, scene, value_size, &size);
     return size;
 }

@@ -16,12 +16,11 @@ struct dispatch_size {
     bool primary_rays_first;            /* before the loop over rays */
     uint32_t most_turns;                /* of the loop over rays */
     bool resumable;                     /* an invocation may take more turns than that */
-    uint32_t stack_room;                /* pending rays of an invocation that lie in a buffer */
+    uint32_t saved_reals, saved_words;  /* slots that an invocation has in memory, see path.glsl */
     unsigned tile_pixels;               /* at most, in a tile */
 };
 
-/* Of SavedWork and SavedPath in shaders/, in float. */
-enum { SAVED_WORK_BYTES = 160, SAVED_PATH_BYTES = 32 };
+enum { SAVED_REAL_BYTES = 4 * sizeof(float) }; /* twice as many in double precision */
 
 /* A size that suits the device and the scene, with values of so many bytes. */
 struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,

@@ -14,9 +14,8 @@ enum {
     QUAD_LIGHTS,
     SCENE_BINDINGS,
     PICTURE = SCENE_BINDINGS,
-    SAVED_WORKS,
-    STACKS,
-    STACK_BRANCHES,
+    SAVED_REALS,
+    SAVED_WORDS,
     OUTCOME,
     EVENTS, /* of the variants that tell of one pixel */
     BINDINGS,
