@@ -93,3 +93,5 @@ foreach(arguments "--precision;double" "--samples;2" "--max-error;1e-12")
 endforeach()
 add_agreement(many_turns/touching/120x80/bounces_64 ${PROJECT_SOURCE_DIR}/scenes/hard/touching.yaml
               --size 120x80 --max-bounces 64) # in tiles of 4096 pixels
+add_agreement(many_turns/figure_4/600x400/bounces_1000 ${PROJECT_SOURCE_DIR}/scenes/figure_4.yaml --size 600x400
+              --max-bounces 1000 --max-error 1e-3 --validate) # whose stacks need smaller tiles

@@ -82,7 +82,7 @@ add_cli_tests(output formats same_bits_on_both_backends exr_metadata transfer un
 add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer
               devices)
 if(VKWHITTED_TESTS STREQUAL "all")
-    add_cli_tests(pretend failing_calls agreement_as_graphics_card dispatch_sizes)
+    add_cli_tests(pretend failing_calls agreement_as_graphics_card dispatch_sizes agreement_with_long_vectors)
 endif()
 add_cli_tests(check agreement difference tolerance allow heatmap json worst_status)
 add_cli_tests(bench without_device report bad_comparison options interrupted)

@@ -119,6 +119,7 @@ struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
         .threads = 1,
     };
     if (size.on_processor) {
+        size.group_width = context->subgroup_size >= 16 ? 16 : 8;
         size.group_height = 1;
         size.rows = 16;
         size.threads = (uint32_t)sysconf(_SC_NPROCESSORS_ONLN);

@@ -134,9 +134,9 @@ static enum status start_next_tile(struct course *course, struct dispatch_frame 
     const struct packed_scene *scene = tiles->dispatcher->info->scene;
     const unsigned rows = size->rows * size->group_height;
     if (course->x == 0) {
-        unsigned height = smaller(tiles->height, tiles->pixels / smaller(tiles->pixels, tiles->width));
-        height -= height > rows ? height % rows : 0;
-        course->row_height = smaller(height, course->window.height - course->y);
+        const unsigned left = course->window.height - course->y;
+        const unsigned most = smaller(tiles->height, tiles->pixels / smaller(tiles->pixels, tiles->width));
+        course->row_height = most >= left ? left : most > rows ? most - most % rows : most;
     }
     frame->portion = (struct portion){
         .tile_x = course->window.x + course->x,

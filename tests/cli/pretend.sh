@@ -24,6 +24,17 @@ dispatch_sizes() {
     expect 0 "$VKWHITTED" render -q --size 1200x900 --samples 64 --max-bounces 1 "$figure"
     tail -n +2 dispatches | awk '{ n += $1 * $2 * 64 } END { exit !(NR == 2 && n <= 2.04 * 1200 * 900) }' ||
         fail "$(cat dispatches)"
+    rm dispatches
+    unset PRETEND_GPU
+    expect 0 "$VKWHITTED" render -q --size 1920x1080 "$figure"
+    test "$(tail -n +2 dispatches | wc -l)" = 1 || fail "$(cat dispatches)"
+}
+
+# Vectors of 16 lanes, which a processor has or not.
+agreement_with_long_vectors() {
+    export LP_NATIVE_VECTOR_WIDTH=512
+    expect 0 "$VKWHITTED" check -q --size 97x61 "$SOURCE_DIR"/scenes/figure_{2b,4}.yaml "$SOURCE_DIR/scenes/hard/touching.yaml"
+    expect 0 "$VKWHITTED" check -q --size 450x300 "$SOURCE_DIR"/scenes/figure_4.yaml
 }
 
 # A lost device, and no memory: a message, status 3 and nothing half-written.
