@@ -22,6 +22,7 @@ struct hit {
     bool from_inside;          /* met from the inside of a sphere or the glass side of a transparent plane */
     struct vec3 point, normal; /* unit normal, facing the ray */
     const PackedSurface *material;
+    int file_order;
 };
 
 /* Where a line passes a sphere: Haines, Guenther and Akenine-Moeller, "Precision Improvements for
@@ -59,7 +60,7 @@ static inline bool meet_sphere(const struct PackedSphere *sphere, int surface, c
         *distance = 2 * at_least_zero(approach.along);
         return ray->inward;
     }
-    if (sphere->surface.tags.HOLDS_RAYS != 0 && lies_inside(to_center, radius)) {
+    if (sphere->tags.HOLDS_RAYS != 0 && lies_inside(to_center, radius)) {
         *distance = at_least_zero(approach.along + half_chord);
         return true;
     }
@@ -119,14 +120,16 @@ static inline bool find_hit(const struct packed_scene *scene, const struct ray *
         bool met = plane < 0 ? meet_sphere(&scene->spheres[i], i, ray, &distance, &from_inside)
                              : meet_plane(&scene->planes[plane], i, ray, &distance, &from_inside);
         const PackedSurface *material =
-            plane < 0 ? &scene->spheres[i].surface : &scene->planes[plane].surface;
+            plane < 0 ? &scene->surfaces[scene->spheres[i].tags.SURFACE] : &scene->planes[plane].surface;
+        int file_order = plane < 0 ? scene->spheres[i].tags.FILE_ORDER : material->tags.FILE_ORDER;
         if (met && (distance < nearest->distance ||
                     (distance == nearest->distance && nearest->surface != NO_SURFACE &&
-                     material->tags.FILE_ORDER < nearest->material->tags.FILE_ORDER))) {
+                     file_order < nearest->file_order))) {
             nearest->distance = distance;
             nearest->surface = i;
             nearest->from_inside = from_inside;
             nearest->material = material;
+            nearest->file_order = file_order;
         }
     }
     if (nearest->surface == NO_SURFACE)
@@ -152,9 +155,8 @@ static inline bool sphere_blocks(const struct PackedSphere *sphere, int surface,
     struct vec3 center = vector_of(sphere->center_radius);
     real radius = sphere->center_radius.w;
     struct vec3 to_center = subtract(center, segment->from);
-    bool starts_inside = own || (sphere->surface.tags.HOLDS_RAYS != 0 && lies_inside(to_center, radius));
-    bool ends_inside =
-        sphere->surface.tags.HOLDS_LIGHTS != 0 && lies_inside(subtract(center, segment->to), radius);
+    bool starts_inside = own || (sphere->tags.HOLDS_RAYS != 0 && lies_inside(to_center, radius));
+    bool ends_inside = sphere->tags.HOLDS_LIGHTS != 0 && lies_inside(subtract(center, segment->to), radius);
     if (starts_inside || ends_inside)
         return starts_inside != ends_inside;
     struct approach approach = approach_sphere(to_center, segment->direction, radius);

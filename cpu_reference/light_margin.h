@@ -21,11 +21,11 @@ static inline double sphere_block_margin(const struct PackedSphere *sphere, int 
         return INFINITY;
     double margin = INFINITY;
     bool inside = own;
-    if (sphere->surface.tags.HOLDS_LIGHTS != 0) {
+    if (sphere->tags.HOLDS_LIGHTS != 0) {
         margin = inside_margin(sphere->center_radius, segment->to, rounding(length(segment->to)));
         inside = inside || contains(sphere, segment->to);
     }
-    if (!own && sphere->surface.tags.HOLDS_RAYS != 0) {
+    if (!own && sphere->tags.HOLDS_RAYS != 0) {
         margin = smaller(margin, inside_margin(sphere->center_radius, segment->from, e_from));
         inside = inside || contains(sphere, segment->from);
     }

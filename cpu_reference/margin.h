@@ -132,7 +132,7 @@ static inline double sphere_margin(const struct packed_scene *scene, int i, cons
     struct tracked_approach approach =
         track_approach(sphere->center_radius, ray->origin, ray->direction, error);
     double margin = INFINITY;
-    if (sphere->surface.tags.HOLDS_RAYS != 0) {
+    if (sphere->tags.HOLDS_RAYS != 0) {
         margin = inside_margin(sphere->center_radius, ray->origin, error.origin);
         if (contains(sphere, ray->origin)) { /* certain to be met, at its far side */
             double back = approach.along + approach.half_chord;

@@ -57,7 +57,7 @@ bool comes_first(real distance, int file_order, Hit nearest)
 }
 
 void take(bool closer, inout Hit nearest, real distance, int surface, bool from_inside, vec4 shape,
-          PackedSurface material)
+          PackedSurface material, int file_order)
 {
     nearest.distance = closer ? distance : nearest.distance;
     nearest.surface = closer ? surface : nearest.surface;
@@ -66,7 +66,7 @@ void take(bool closer, inout Hit nearest, real distance, int surface, bool from_
     nearest.parameters = closer ? material.parameters : nearest.parameters;
     nearest.oren_nayar_b = closer ? material.more_parameters.OREN_NAYAR_B : nearest.oren_nayar_b;
     nearest.kind = closer ? material.tags.SURFACE_KIND : nearest.kind;
-    nearest.file_order = closer ? material.tags.FILE_ORDER : nearest.file_order;
+    nearest.file_order = closer ? file_order : nearest.file_order;
 }
 
 // Whether any ray can run inside sphere i.
@@ -78,7 +78,7 @@ bool rays_enter(int i)
 void meet_sphere(Ray ray, int i, inout Hit nearest)
 {
     vec4 shape = get_sphere(i).center_radius;
-    PackedSurface material = get_sphere(i).surface;
+    ivec4 tags = get_sphere(i).tags;
     real radius = real(shape.w);
     exact real3 to_center = real3(shape.xyz) - ray.origin;
     Approach approach = approach_sphere(to_center, ray.direction, radius);
@@ -95,15 +95,15 @@ void meet_sphere(Ray ray, int i, inout Hit nearest)
         exact real chord = approach.along > real(0) ? real(2) * approach.along : real(0);
         bool inside = false;
         if (SPHERES_HOLD_RAYS)
-            inside = !own && material.tags.HOLDS_RAYS != 0 && lies_inside(to_center, radius);
+            inside = !own && tags.HOLDS_RAYS != 0 && lies_inside(to_center, radius);
         exact real far_end = approach.along + half_chord;
         far_end = far_end > real(0) ? far_end : real(0);
         from_inside = through || inside;
         met = met || from_inside;
         distance = through ? chord : (inside ? far_end : distance);
     }
-    bool closer = met && comes_first(distance, material.tags.FILE_ORDER, nearest);
-    take(closer, nearest, distance, i, from_inside, shape, material);
+    bool closer = met && comes_first(distance, tags.FILE_ORDER, nearest);
+    take(closer, nearest, distance, i, from_inside, shape, get_surface(i), tags.FILE_ORDER);
     nearest.center_offset = closer ? approach.center_offset : nearest.center_offset;
     nearest.half_chord = closer ? half_chord : nearest.half_chord;
 }
@@ -137,7 +137,7 @@ void meet_plane(Ray ray, int i, inout Hit nearest)
     }
     exact real distance = divide(height, -slope);
     bool closer = met && ray.surface != SPHERES + i && comes_first(distance, material.tags.FILE_ORDER, nearest);
-    take(closer, nearest, distance, SPHERES + i, from_inside, shape, material);
+    take(closer, nearest, distance, SPHERES + i, from_inside, shape, material, material.tags.FILE_ORDER);
 }
 
 Hit no_hit()
@@ -194,9 +194,9 @@ bool sphere_shadows(int i, real3 point, int surface, bool inward, real3 to_light
     if (rays_enter(i) || SPHERES_HOLD_LIGHTS) {
         bool point_inside = own && inward;
         bool light_inside = false;
-        if (SPHERES_HOLD_RAYS && get_sphere(i).surface.tags.HOLDS_RAYS != 0 && !own)
+        if (SPHERES_HOLD_RAYS && get_sphere(i).tags.HOLDS_RAYS != 0 && !own)
             point_inside = lies_inside(to_center, radius);
-        if (SPHERES_HOLD_LIGHTS && get_sphere(i).surface.tags.HOLDS_LIGHTS != 0) {
+        if (SPHERES_HOLD_LIGHTS && get_sphere(i).tags.HOLDS_LIGHTS != 0) {
             exact real3 light_to_center = center - light;
             light_inside = lies_inside(light_to_center, radius);
         }

@@ -10,7 +10,13 @@ struct packed_scene {
     int width, height; /* of the whole picture, pixels */
     int max_bounces, samples, light_samples;
     int sphere_count, plane_count, point_light_count, quad_light_count;
+    int looped_spheres; /* the first so many, each with the surface of its number, are tried one after the
+                         * other; the others are so many that the renderer needs a structure to find those on
+                         * a ray's way */
+    int surface_count;
     struct PackedSphere *spheres;
+    struct PackedSurface
+        *surfaces; /* of spheres: one for each that is looped over, then those that others share */
     struct PackedPlane *planes;
     struct PackedPointLight *point_lights;
     struct PackedQuadLight *quad_lights;

@@ -48,7 +48,7 @@ const bool SECONDARY_RAYS = (MIRRORS || GLASS) && MAX_BOUNCES > 0;
 #endif
 
 layout(std140, set = 0, binding = 0) uniform ViewBlock { PackedView view; };
-SCENE_ARRAY(1, PackedSphere, spheres, SPHERES);
+SCENE_ARRAY(1, LoopedSphere, spheres, SPHERES);
 SCENE_ARRAY(2, PackedPlane, planes, PLANES);
 SCENE_ARRAY(3, PackedPointLight, point_lights, POINT_LIGHTS);
 SCENE_ARRAY(4, PackedQuadLight, quad_lights, QUAD_LIGHTS);
@@ -68,7 +68,7 @@ SCENE_ARRAY(4, PackedQuadLight, quad_lights, QUAD_LIGHTS);
                 statement                                                               \
         }
 
-PackedSphere hoisted_spheres[HOISTED ? SPHERES + 1 : 1];
+LoopedSphere hoisted_spheres[HOISTED ? SPHERES + 1 : 1];
 PackedPlane hoisted_planes[HOISTED ? PLANES + 1 : 1];
 PackedPointLight hoisted_point_lights[HOISTED ? POINT_LIGHTS + 1 : 1];
 PackedQuadLight hoisted_quad_lights[HOISTED ? QUAD_LIGHTS + 1 : 1];
@@ -92,8 +92,15 @@ void hoist_scene()
 PackedSphere get_sphere(int i)
 {
     if (HOISTED)
-        return hoisted_spheres[i];
-    return spheres[i];
+        return hoisted_spheres[i].sphere;
+    return spheres[i].sphere;
+}
+
+PackedSurface get_surface(int sphere)
+{
+    if (HOISTED)
+        return hoisted_spheres[sphere].surface;
+    return spheres[sphere].surface;
 }
 
 PackedPlane get_plane(int i)

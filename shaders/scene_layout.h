@@ -39,28 +39,30 @@ typedef struct PackedSurface PackedSurface;
 /* A ray of smaller weight is not traced and a smaller pixel value is 0, for the same reason. */
 #define SMALLEST_WEIGHT 8.077935669463161e-28 /* 2^-90 */
 
-/* What a pixel's four values are: radiance and what the pixel is charged for rays that were not traced, summed over its
- * samples (0 unless wanted); or, as unsigned integers, the numbers of secondary and shadow rays, the path signature (a hash
- * of every decision of the ray tree) and 0, of which one output has the rays and another the signature. */
+/* What a pixel's four values are: radiance and what the pixel is charged for rays that were not traced,
+ * summed over its samples (0 unless wanted); or, as unsigned integers, the numbers of secondary and shadow
+ * rays, the path signature (a hash of every decision of the ray tree) and 0, of which one output has the rays
+ * and another the signature. */
 #define OUTPUT_RADIANCE 0
 #define OUTPUT_RAYS 1
 #define OUTPUT_SIGNATURE 2
 
-/* The slots of vectors and of words in which an invocation keeps its work between dispatches; behind them is its stack. */
+/* The slots of vectors and of words in which an invocation keeps its work between dispatches; behind them is
+ * its stack. */
 #define WORK_REALS 5
 #define WORK_WORDS 7
 
-/* What the direction of a ray, and its line projected along the normal of the parallel mirrors that reflect it, may
- * be off by after 1000 bounces, relative: a bounce loses less than 2^-20. */
+/* What the direction of a ray, and its line projected along the normal of the parallel mirrors that reflect
+ * it, may be off by after 1000 bounces, relative: a bounce loses less than 2^-20. */
 #define MIRROR_DRIFT 0.0009765625 /* 2^-10 */
 
-/* The charge for a ray that is not traced is the most that it could have brought: its weight, which is its share
- * in the pixel, times the bound on radiance. Charges are summed to nearest; this factor after each addition makes
- * the sum one that is rounded up. */
+/* The charge for a ray that is not traced is the most that it could have brought: its weight, which is its
+ * share in the pixel, times the bound on radiance. Charges are summed to nearest; this factor after each
+ * addition makes the sum one that is rounded up. */
 #define ROUND_UP 1.0000002384185791015625 /* 1 + 2^-22 */
 
-/* What both tracers can tell of one pixel: events in the order of the recursion. Each has a head and values: two
- * vectors and a number. */
+/* What both tracers can tell of one pixel: events in the order of the recursion. Each has a head and values:
+ * two vectors and a number. */
 #define EVENT_RAY 0      /* values: origin, direction, weight */
 #define EVENT_HIT 1      /* values: normal, point, distance */
 #define EVENT_SPLIT 2    /* at glass; values: refracted direction, (cos_in, k_r) */
@@ -82,39 +84,43 @@ typedef struct PackedSurface PackedSurface;
 #define LIGHT_SHADOW_RAY 2
 
 /* What the slots of an event's head hold. */
-#define EVENT_KIND x         /* place: EVENT_RAY, ... */
-#define EVENT_OF_SAMPLE y    /* the pixel's sample */
-#define EVENT_BRANCH z       /* of the ray, in the tree of its sample: 0 the primary ray, children of i: 2 i + 1
-                              * refracted, 2 i + 2 reflected */
-#define EVENT_BOUNCES w      /* of the ray */
-#define EVENT_SURFACE x      /* facts: the surface that a ray leaves or meets; -1: none */
-#define EVENT_INWARD y       /* of rays: into the body whose surface they leave */
-#define EVENT_FROM_INSIDE y  /* of hits */
-#define EVENT_TOTAL x        /* of splits: total reflection */
-#define EVENT_REASON x       /* of rays that are not traced: UNTRACED_ */
-#define EVENT_OF_LIGHT x     /* of points of lights: the light; point lights come first */
+#define EVENT_KIND x      /* place: EVENT_RAY, ... */
+#define EVENT_OF_SAMPLE y /* the pixel's sample */
+#define EVENT_BRANCH                                                                                         \
+    z                   /* of the ray, in the tree of its sample: 0 the primary ray, children of i: 2 i + 1  \
+                         * refracted, 2 i + 2 reflected */
+#define EVENT_BOUNCES w /* of the ray */
+#define EVENT_SURFACE x /* facts: the surface that a ray leaves or meets; -1: none */
+#define EVENT_INWARD y  /* of rays: into the body whose surface they leave */
+#define EVENT_FROM_INSIDE y /* of hits */
+#define EVENT_TOTAL x       /* of splits: total reflection */
+#define EVENT_REASON x      /* of rays that are not traced: UNTRACED_ */
+#define EVENT_OF_LIGHT x    /* of points of lights: the light; point lights come first */
 #define EVENT_LIGHT_SAMPLE y
-#define EVENT_LIGHT_STATE z  /* LIGHT_ */
-#define EVENT_BLOCKER w      /* the surface that stands in between; -1: none */
+#define EVENT_LIGHT_STATE z /* LIGHT_ */
+#define EVENT_BLOCKER w     /* the surface that stands in between; -1: none */
 
 struct EventHead {
     LAYOUT_IVEC4 place; /* which step of the ray tree it is */
     LAYOUT_IVEC4 facts; /* its decisions */
 };
 
-/* What the slots of vectors hold: surface.tags.FILE_ORDER, and so on. */
-#define OREN_NAYAR_A w    /* PackedSurface.parameters of matte; albedo / pi is in xyz */
-#define ETA_ENTERING x    /* of glass: eta = n1 / n2 for a ray that enters the body */
-#define KAPPA_ENTERING y  /* 1 - eta^2 */
-#define ETA_EXITING z     /* for one that exits it */
+/* What the slots of vectors hold: sphere.tags.FILE_ORDER, and so on. */
+#define OREN_NAYAR_A w   /* PackedSurface.parameters of matte; albedo / pi is in xyz */
+#define ETA_ENTERING x   /* of glass: eta = n1 / n2 for a ray that enters the body */
+#define KAPPA_ENTERING y /* 1 - eta^2 */
+#define ETA_EXITING z    /* for one that exits it */
 #define KAPPA_EXITING w
-#define OREN_NAYAR_B x    /* PackedSurface.more_parameters of matte */
-#define SURFACE_KIND x    /* PackedSurface.tags: KIND_ */
-#define FILE_ORDER y      /* place in the scene file; the first of equally near surfaces is hit */
-#define CASTS_SHADOWS z   /* of planes: 0 where a plane cannot stand between a light and what is seen */
-#define HOLDS_RAYS z      /* of spheres: a ray or a shading point may lie inside, other than on the surface */
-#define HOLDS_LIGHTS w    /* of spheres: so may a point of a light */
-#define SHARED_A x        /* PackedView.matte: Oren-Nayar's A and B, where all matte surfaces share them */
+#define OREN_NAYAR_B x /* PackedSurface.more_parameters of matte */
+#define SURFACE_KIND x /* PackedSurface.tags: KIND_ */
+#define FILE_ORDER                                                                                           \
+    y /* of spheres and of planes' surfaces: place in the scene file, where each row of a file of            \
+       * spheres counts; the first of equally near surfaces is hit */
+#define CASTS_SHADOWS z /* of planes: 0 where a plane cannot stand between a light and what is seen */
+#define SURFACE x       /* of spheres: index into the scene's surfaces */
+#define HOLDS_RAYS z    /* of spheres: a ray or a shading point may lie inside, other than on the surface */
+#define HOLDS_LIGHTS w  /* of spheres: so may a point of a light */
+#define SHARED_A x      /* PackedView.matte: Oren-Nayar's A and B, where all matte surfaces share them */
 #define SHARED_B y
 #define RADIANCE_BOUND x  /* PackedView.truncation: no ray brings more radiance than this */
 #define ALLOWANCE y       /* what a sample may be charged for rays left out; negative: none is left out */
@@ -128,6 +134,16 @@ struct PackedSurface {
 
 struct PackedSphere {
     LAYOUT_VEC4 center_radius;
+    LAYOUT_IVEC4 tags;
+};
+
+/* What the device has of one that is looped over. */
+struct LoopedSphere {
+#ifdef VULKAN
+    PackedSphere sphere;
+#else
+    struct PackedSphere sphere;
+#endif
     PackedSurface surface;
 };
 

@@ -150,9 +150,9 @@ static void coincident_objects(void **state)
     assert_int_equal(packed.plane_count, 1);
     assert_int_equal(packed.planes[0].surface.tags.FILE_ORDER, 0);
     assert_int_equal(packed.sphere_count, 3);
-    assert_int_equal(packed.spheres[0].surface.tags.FILE_ORDER, 2);
-    assert_int_equal(packed.spheres[1].surface.tags.FILE_ORDER, 4);
-    assert_int_equal(packed.spheres[2].surface.tags.FILE_ORDER, 5);
+    assert_int_equal(packed.spheres[0].tags.FILE_ORDER, 2);
+    assert_int_equal(packed.spheres[1].tags.FILE_ORDER, 4);
+    assert_int_equal(packed.spheres[2].tags.FILE_ORDER, 5);
     pack_destroy(&packed);
 }
 
@@ -219,8 +219,8 @@ static void hollow_spheres(void **state)
     } expected[] = {{0, 0}, {1, 0}, {0, 0}, {1, 0}, {0, 0}, {0, 1}, {0, 1}, {1, 0}, {0, 0}};
     assert_int_equal(packed.sphere_count, sizeof expected / sizeof *expected);
     for (int i = 0; i < packed.sphere_count; ++i) {
-        assert_int_equal(packed.spheres[i].surface.tags.HOLDS_RAYS, expected[i].rays);
-        assert_int_equal(packed.spheres[i].surface.tags.HOLDS_LIGHTS, expected[i].lights);
+        assert_int_equal(packed.spheres[i].tags.HOLDS_RAYS, expected[i].rays);
+        assert_int_equal(packed.spheres[i].tags.HOLDS_LIGHTS, expected[i].lights);
     }
     pack_destroy(&packed);
 }

@@ -131,8 +131,8 @@ const char *surface_name(const struct pixel_trace *trace, double surface)
     int i = (int)surface, plane = i - packed->sphere_count;
     if (i < 0 || plane >= packed->plane_count)
         return "nothing";
-    int file_order = plane < 0 ? packed->spheres[i].surface.tags.FILE_ORDER
-                               : packed->planes[plane].surface.tags.FILE_ORDER;
+    int file_order =
+        plane < 0 ? packed->spheres[i].tags.FILE_ORDER : packed->planes[plane].surface.tags.FILE_ORDER;
     return trace->job->scene.objects[file_order].name;
 }
 

@@ -34,7 +34,7 @@ static inline int body_count(const struct packed_scene *scene)
 
 static inline const PackedSurface *body_surface(const struct packed_scene *scene, int i)
 {
-    return i < scene->sphere_count ? &scene->spheres[i].surface
+    return i < scene->sphere_count ? &scene->surfaces[scene->spheres[i].tags.SURFACE]
                                    : &scene->planes[i - scene->sphere_count].surface;
 }
 

@@ -102,9 +102,12 @@ static void pack_object(struct packing *packing, const struct scene_object *obje
         if (hides(packed, i, body.is_ball, shape))
             return;
     surface.tags.CASTS_SHADOWS = !body.is_ball && is_transparent(&surface);
-    if (body.is_ball)
-        packed->spheres[packed->sphere_count++] = (struct PackedSphere){shape, surface};
-    else
+    if (body.is_ball) {
+        packed->spheres[packed->sphere_count++] = (struct PackedSphere){
+            shape, {.SURFACE = packed->surface_count, .FILE_ORDER = surface.tags.FILE_ORDER}};
+        packed->surfaces[packed->surface_count++] = surface;
+        packed->looped_spheres = packed->sphere_count;
+    } else
         packed->planes[packed->plane_count++] = (struct PackedPlane){shape, surface};
 }
 
@@ -199,8 +202,8 @@ static enum status pack_contents(struct packing *packing)
         if (pack_light(packing, &scene->lights[i]) != STATUS_DONE)
             return STATUS_REFUSED;
     for (int i = 0; i < packed->sphere_count; ++i) {
-        packed->spheres[i].surface.tags.HOLDS_RAYS = holds_rays(packed, i);
-        packed->spheres[i].surface.tags.HOLDS_LIGHTS = holds_lights(packed, i);
+        packed->spheres[i].tags.HOLDS_RAYS = holds_rays(packed, i);
+        packed->spheres[i].tags.HOLDS_LIGHTS = holds_lights(packed, i);
     }
     for (int i = 0; i < body_count(packed); ++i) { /* of the last; used where all are the same */
         const PackedSurface *surface = body_surface(packed, i);
@@ -242,13 +245,14 @@ enum status pack_scene(const struct scene *scene, const struct picture_settings 
         .samples = (int)settings->samples,
         .light_samples = (int)settings->light_samples,
         .spheres = calloc(scene->object_count + 1, sizeof *packed->spheres),
+        .surfaces = calloc(scene->object_count + 1, sizeof *packed->surfaces),
         .planes = calloc(scene->object_count + 1, sizeof *packed->planes),
         .point_lights = calloc(scene->light_count + 1, sizeof *packed->point_lights),
         .quad_lights = calloc(scene->light_count + 1, sizeof *packed->quad_lights),
     };
     struct packing packing = {.scene = scene, .scale = pack_scale(scene), .packed = packed};
     enum status status = STATUS_UNABLE;
-    if (packed->spheres && packed->planes && packed->point_lights && packed->quad_lights)
+    if (packed->spheres && packed->surfaces && packed->planes && packed->point_lights && packed->quad_lights)
         status = pack_contents(&packing);
     else
         log_error("%s: no memory for %zu objects", scene->path, scene->object_count);
@@ -262,6 +266,7 @@ enum status pack_scene(const struct scene *scene, const struct picture_settings 
 void pack_destroy(struct packed_scene *packed)
 {
     free(packed->spheres);
+    free(packed->surfaces);
     free(packed->planes);
     free(packed->point_lights);
     free(packed->quad_lights);

@@ -22,8 +22,8 @@ static uint64_t smaller(uint64_t a, uint64_t b)
 static bool has_kind(const struct packed_scene *scene, int kind)
 {
     bool found = false;
-    for (int i = 0; i < scene->sphere_count; ++i)
-        found = found || scene->spheres[i].surface.tags.SURFACE_KIND == kind;
+    for (int i = 0; i < scene->surface_count; ++i)
+        found = found || scene->surfaces[i].tags.SURFACE_KIND == kind;
     for (int i = 0; i < scene->plane_count; ++i)
         found = found || scene->planes[i].surface.tags.SURFACE_KIND == kind;
     return found;
@@ -56,7 +56,7 @@ static bool primary_rays_pay(const struct vulkan_context *context, const struct 
 /* Loops may be unrolled or not: all their turns are counted. */
 static void choose_turns(const struct packed_scene *scene, bool primary_first, struct dispatch_size *size)
 {
-    const uint64_t objects = (uint64_t)(scene->sphere_count + scene->plane_count);
+    const uint64_t objects = (uint64_t)(scene->looped_spheres + scene->plane_count);
     const uint64_t points = (uint64_t)scene->point_light_count +
                             (uint64_t)scene->quad_light_count * (uint64_t)scene->light_samples;
     size->objects_a_turn = (uint32_t)(1 + objects / (MOST_TURNS / 2));

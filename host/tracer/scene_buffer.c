@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* A part of the scene as it lies in memory. */
+/* A part of the scene as it lies in memory; without data: LoopedSphere. */
 struct scene_part {
     const void *data;
     size_t size;
@@ -12,7 +12,7 @@ static struct scene_part part_of(const struct packed_scene *scene, int i)
 {
     const struct scene_part parts[SCENE_BINDINGS] = {
         [VIEW] = {&scene->view, sizeof scene->view},
-        [SPHERES] = {scene->spheres, sizeof *scene->spheres * (size_t)scene->sphere_count},
+        [SPHERES] = {NULL, sizeof(struct LoopedSphere) * (size_t)scene->looped_spheres},
         [PLANES] = {scene->planes, sizeof *scene->planes * (size_t)scene->plane_count},
         [POINT_LIGHTS] = {scene->point_lights,
                           sizeof *scene->point_lights * (size_t)scene->point_light_count},
@@ -42,9 +42,11 @@ void scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_
 {
     for (int i = 0; i < SCENE_BINDINGS; ++i) {
         struct scene_part part = part_of(scene, i);
-        if (part.size > 0)
-            memcpy((unsigned char *)scene_buffer->buffer.mapped + scene_buffer->parts[i].offset, part.data,
-                   part.size);
+        void *to = (unsigned char *)scene_buffer->buffer.mapped + scene_buffer->parts[i].offset;
+        if (part.data)
+            memcpy(to, part.data, part.size);
+        for (int k = 0; !part.data && k < scene->looped_spheres; ++k)
+            ((struct LoopedSphere *)to)[k] = (struct LoopedSphere){scene->spheres[k], scene->surfaces[k]};
     }
 }
 

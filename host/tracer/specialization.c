@@ -1,5 +1,7 @@
 #include "tracer/specialization.h"
 
+#include "scene/body.h"
+
 enum { MOST_HOISTED = 24 };
 
 static void note_surface(struct specialization *constants, const struct packed_scene *scene,
@@ -30,7 +32,7 @@ struct specialization specialize(const struct vulkan_context *context, const str
     struct specialization constants = {
         .group_width = size->group_width,
         .group_height = size->group_height,
-        .spheres = scene->sphere_count,
+        .spheres = scene->looped_spheres,
         .planes = scene->plane_count,
         .point_lights = scene->point_light_count,
         .quad_lights = scene->quad_light_count,
@@ -50,20 +52,22 @@ struct specialization specialize(const struct vulkan_context *context, const str
         .samples_apart = size->samples < (uint32_t)scene->samples,
         .light_points_a_turn = size->light_points_a_turn,
         .objects_a_turn = (int32_t)size->objects_a_turn,
-        .hoisted = size->on_processor && scene->sphere_count + scene->plane_count + scene->point_light_count +
-                                                 scene->quad_light_count <=
+        .hoisted = size->on_processor && scene->looped_spheres + scene->plane_count +
+                                                 scene->point_light_count + scene->quad_light_count <=
                                              MOST_HOISTED,
         .primary_rays_first = size->primary_rays_first && options->event_room == 0,
     };
     int last_sphere_order = -1;
+    for (int i = 0; i < scene->surface_count; ++i)
+        note_surface(&constants, scene, &scene->surfaces[i]);
     for (int i = 0; i < scene->sphere_count; ++i) {
-        const PackedSurface *surface = &scene->spheres[i].surface;
-        note_surface(&constants, scene, surface);
-        constants.spheres_hold_rays |= surface->tags.HOLDS_RAYS != 0;
-        constants.spheres_hold_lights |= surface->tags.HOLDS_LIGHTS != 0;
-        if (i < 32 && (surface->tags.SURFACE_KIND == KIND_TRANSPARENT || surface->tags.HOLDS_RAYS != 0))
+        const layout_ivec4 tags = scene->spheres[i].tags;
+        constants.spheres_hold_rays |= tags.HOLDS_RAYS != 0;
+        constants.spheres_hold_lights |= tags.HOLDS_LIGHTS != 0;
+        if (i < 32 && (body_surface(scene, i)->tags.SURFACE_KIND == KIND_TRANSPARENT || tags.HOLDS_RAYS != 0))
             constants.entered_spheres |= UINT32_C(1) << i;
-        last_sphere_order = surface->tags.FILE_ORDER;
+        if (i < scene->looped_spheres)
+            last_sphere_order = tags.FILE_ORDER;
     }
     for (int i = 0; i < scene->plane_count; ++i) {
         const PackedSurface *surface = &scene->planes[i].surface;

@@ -86,9 +86,9 @@ static void report_no_device(void)
 /* The function of the instance, which has VK_EXT_debug_utils. */
 #define FIND(context, name) (PFN_##name)(void (*)(void)) vkGetInstanceProcAddr((context)->instance, #name)
 
-/* Where the processor has vectors of 512 bits, asks Mesa's lavapipe for them: it takes 256 by itself, and with 512
- * and groups as wide figure 4 takes 20.5 ms where it took 23.1, figure 2b 15.8 where it took 22.9 (1920x1080 and
- * 600x400, two Zen 4 cores, Mesa 22.3). Other drivers do not look. */
+/* Where the processor has vectors of 512 bits, asks Mesa's lavapipe for them: it takes 256 by itself, and
+ * with 512 and groups as wide figure 4 takes 20.5 ms where it took 23.1, figure 2b 15.8 where it took 22.9
+ * (1920x1080 and 600x400, two Zen 4 cores, Mesa 22.3). Other drivers do not look. */
 static void ask_for_long_vectors(void)
 {
 #ifdef __x86_64__

@@ -71,12 +71,17 @@ void call_nearest_hit(const nearest_hit_input *input, nearest_hit_output *output
     const struct ray ray = ray_of(&input->ray);
     Sphere spheres[] = {input->sphere_0, input->sphere_1};
     Plane planes[] = {input->plane_0, input->plane_1};
+    PackedSurface surface = {.tags = {0}};
     struct hit hit;
-    bool met = find_hit(
-        &(struct packed_scene){.sphere_count = 2, .plane_count = 2, .spheres = spheres, .planes = planes},
-        &ray, &hit);
+    bool met = find_hit(&(struct packed_scene){.sphere_count = 2,
+                                               .looped_spheres = 2,
+                                               .plane_count = 2,
+                                               .spheres = spheres,
+                                               .surfaces = &surface,
+                                               .planes = planes},
+                        &ray, &hit);
     output->surface = met ? hit.surface : NO_SURFACE;
-    output->file_order = met ? hit.material->tags.FILE_ORDER : 0;
+    output->file_order = met ? hit.file_order : 0;
     output->hit = record_of(met, &hit);
 }
 
@@ -143,6 +148,8 @@ static void set_matte_scene(struct matte_scene *set, const MatteRecord *matte, S
         .sphere = sphere,
         .plane = plane,
         .scene = {.sphere_count = 1,
+                  .looped_spheres = 1,
+                  .surfaces = &set->material,
                   .plane_count = 1,
                   .spheres = &set->sphere,
                   .planes = &set->plane,

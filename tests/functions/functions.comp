@@ -44,7 +44,8 @@ PackedSurface surface_of(Surface surface)
 
 PackedSphere sphere_of(Sphere sphere)
 {
-    return PackedSphere(vec4_of(sphere.center_radius), surface_of(sphere.surface));
+    return PackedSphere(vec4_of(sphere.center_radius),
+                        ivec4(sphere.tags.x, sphere.tags.y, sphere.tags.z, sphere.tags.w));
 }
 
 PackedPlane plane_of(Plane plane)
@@ -100,7 +101,7 @@ HitRecord record_of(Ray ray, Hit hit)
 
 void call_meet_sphere(meet_sphere_input i, out meet_sphere_output o)
 {
-    hoisted_spheres[0] = sphere_of(i.sphere);
+    hoisted_spheres[0].sphere = sphere_of(i.sphere);
     Hit nearest = no_hit();
     meet_sphere(ray_of(i.ray), 0, nearest);
     o.hit = record_of(ray_of(i.ray), nearest);
@@ -117,8 +118,8 @@ void call_meet_plane(meet_plane_input i, out meet_plane_output o)
 // Its pipeline has two spheres and two planes, those of the other functions one of each.
 void call_nearest_hit(nearest_hit_input i, out nearest_hit_output o)
 {
-    hoisted_spheres[0] = sphere_of(i.sphere_0);
-    hoisted_spheres[SPHERES - 1] = sphere_of(i.sphere_1);
+    hoisted_spheres[0].sphere = sphere_of(i.sphere_0);
+    hoisted_spheres[SPHERES - 1].sphere = sphere_of(i.sphere_1);
     hoisted_planes[0] = plane_of(i.plane_0);
     hoisted_planes[PLANES - 1] = plane_of(i.plane_1);
     Hit nearest = nearest_hit(ray_of(i.ray));
@@ -129,7 +130,7 @@ void call_nearest_hit(nearest_hit_input i, out nearest_hit_output o)
 
 void call_sphere_shadows(sphere_shadows_input i, out sphere_shadows_output o)
 {
-    hoisted_spheres[0] = sphere_of(i.sphere);
+    hoisted_spheres[0].sphere = sphere_of(i.sphere);
     o.shadows = int(sphere_shadows(0, vec3_of(i.segment.from), i.segment.surface, i.segment.inward != 0,
                                    vec3_of(i.segment.direction), i.segment.distance, vec3_of(i.segment.to)));
 }
@@ -160,7 +161,7 @@ void call_oren_nayar(oren_nayar_input i, out oren_nayar_output o)
 
 void call_point_light(point_light_input i, out point_light_output o)
 {
-    hoisted_spheres[0] = sphere_of(i.sphere);
+    hoisted_spheres[0].sphere = sphere_of(i.sphere);
     hoisted_planes[0] = plane_of(i.plane);
     Tally tally = Tally(0u, 0u, 0u);
     vec3 to_light;
@@ -171,7 +172,7 @@ void call_point_light(point_light_input i, out point_light_output o)
 
 void call_quad_light(quad_light_input i, out quad_light_output o)
 {
-    hoisted_spheres[0] = sphere_of(i.sphere);
+    hoisted_spheres[0].sphere = sphere_of(i.sphere);
     hoisted_planes[0] = plane_of(i.plane);
     hoisted_quad_lights[0] =
         PackedQuadLight(vec4_of(i.light.corner), vec4_of(i.light.edge_u), vec4_of(i.light.edge_v),

@@ -106,8 +106,8 @@ static MatteRecord random_matte_scene(struct random *random, struct PackedSphere
 {
     *sphere = random_sphere(random);
     *plane = random_plane(random);
-    sphere->surface.tags.HOLDS_RAYS = random_bool(random);
-    sphere->surface.tags.HOLDS_LIGHTS = random_bool(random);
+    sphere->tags.HOLDS_RAYS = random_bool(random);
+    sphere->tags.HOLDS_LIGHTS = random_bool(random);
     return random_matte(random, sphere, plane, facing_normal);
 }
 

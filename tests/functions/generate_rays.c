@@ -80,16 +80,16 @@ static RayRecord ray_at_sphere(struct random *random, struct PackedSphere *spher
     case 6: /* from inside */
     case 7:
         origin = dvec3_along(center, radius * random_between(random, 0, 1), normal);
-        sphere->surface.tags.HOLDS_RAYS = 1;
+        sphere->tags.HOLDS_RAYS = 1;
         break;
     case 8: /* from the centre */
         origin = center;
-        sphere->surface.tags.HOLDS_RAYS = 1;
+        sphere->tags.HOLDS_RAYS = 1;
         break;
     case 9: /* from a point on it that belongs to another surface */
         origin = on_sphere;
         ray.surface = 7;
-        sphere->surface.tags.HOLDS_RAYS = random_bool(random);
+        sphere->tags.HOLDS_RAYS = random_bool(random);
         break;
     case 10: /* along an axis, through the centre */
         direction = random_axis(random);
@@ -161,7 +161,7 @@ static RayRecord ray_at_plane(struct random *random, const struct PackedPlane *p
 static void keep_promises(const struct random *random, struct PackedSphere *sphere, RayRecord *ray)
 {
     if (random->promises.never_entered) {
-        sphere->surface.tags.HOLDS_RAYS = sphere->surface.tags.HOLDS_LIGHTS = 0;
+        sphere->tags.HOLDS_RAYS = sphere->tags.HOLDS_LIGHTS = 0;
         ray->inward = false;
     }
 }
@@ -195,8 +195,8 @@ static RayRecord ray_at_tangent_plane(const struct PackedSphere *sphere, struct 
 /* Two spheres and two planes, often the same twice, so that there are ties for the file order to decide. */
 void generate_nearest_hit(struct random *random, nearest_hit_input *input)
 {
-    PackedSurface *surfaces[] = {&input->sphere_0.surface, &input->sphere_1.surface, &input->plane_0.surface,
-                                 &input->plane_1.surface};
+    layout_ivec4 *tags[] = {&input->sphere_0.tags, &input->sphere_1.tags, &input->plane_0.surface.tags,
+                            &input->plane_1.surface.tags};
     input->sphere_0 = random_sphere(random);
     input->sphere_1 = random_sphere(random);
     input->plane_0 = random_plane(random);
@@ -210,11 +210,11 @@ void generate_nearest_hit(struct random *random, nearest_hit_input *input)
     if (one_in(random, 4) && input->ray.surface == NO_SURFACE)
         input->ray = ray_at_tangent_plane(&input->sphere_0, &input->plane_0);
     for (int i = 0; i < 4; ++i)
-        surfaces[i]->tags.FILE_ORDER = i;
+        tags[i]->FILE_ORDER = i;
     for (unsigned i = 3; i > 0 && !random->promises.in_order; --i) {
         unsigned other = random_below(random, i + 1);
-        int file_order = surfaces[i]->tags.FILE_ORDER;
-        surfaces[i]->tags.FILE_ORDER = surfaces[other]->tags.FILE_ORDER;
-        surfaces[other]->tags.FILE_ORDER = file_order;
+        int file_order = tags[i]->FILE_ORDER;
+        tags[i]->FILE_ORDER = tags[other]->FILE_ORDER;
+        tags[other]->FILE_ORDER = file_order;
     }
 }

@@ -35,7 +35,7 @@ void generate_sphere_shadows(struct random *random, sphere_shadows_input *input)
         inward = true;
         if (random_bool(random))
             to = inside;
-        sphere.surface.tags.HOLDS_LIGHTS = 1;
+        sphere.tags.HOLDS_LIGHTS = 1;
         break;
     case 2: /* leaves it and grazes */
         from = on_sphere;
@@ -51,21 +51,21 @@ void generate_sphere_shadows(struct random *random, sphere_shadows_input *input)
     case 5: /* light on it */
         from = random_away(random, on_sphere, random_scale(random, 1e-3, 1));
         to = on_sphere;
-        sphere.surface.tags.HOLDS_LIGHTS = random_bool(random);
+        sphere.tags.HOLDS_LIGHTS = random_bool(random);
         break;
     case 6: /* light inside */
         to = inside;
-        sphere.surface.tags.HOLDS_LIGHTS = 1;
+        sphere.tags.HOLDS_LIGHTS = 1;
         break;
     case 7: /* point inside */
         from = inside;
-        sphere.surface.tags.HOLDS_RAYS = 1;
-        sphere.surface.tags.HOLDS_LIGHTS = random_bool(random);
+        sphere.tags.HOLDS_RAYS = 1;
+        sphere.tags.HOLDS_LIGHTS = random_bool(random);
         break;
     case 8: /* both inside */
         from = inside;
         to = dvec3_along(center, radius * random_between(random, 0, 1), normal);
-        sphere.surface.tags.HOLDS_RAYS = sphere.surface.tags.HOLDS_LIGHTS = 1;
+        sphere.tags.HOLDS_RAYS = sphere.tags.HOLDS_LIGHTS = 1;
         break;
     case 9: /* light about as far as the closest approach, which is in the sphere or beside it */
         to = dvec3_along(center, radius * random_between(random, 0, 1.1), normal);
@@ -74,7 +74,7 @@ void generate_sphere_shadows(struct random *random, sphere_shadows_input *input)
     case 10: /* from a point on it that belongs to another surface */
         from = on_sphere;
         surface = 5;
-        sphere.surface.tags.HOLDS_RAYS = random_bool(random);
+        sphere.tags.HOLDS_RAYS = random_bool(random);
         break;
     case 11: /* ends before it */
         to = dvec3_along(center, radius * random_between(random, 1, 1.01), normal);
@@ -85,7 +85,7 @@ void generate_sphere_shadows(struct random *random, sphere_shadows_input *input)
         to = dvec3_along(from, random_between(random, 0.5, 3), dvec3_subtract(to, from));
     }
     if (random->promises.never_entered) {
-        sphere.surface.tags.HOLDS_RAYS = sphere.surface.tags.HOLDS_LIGHTS = 0;
+        sphere.tags.HOLDS_RAYS = sphere.tags.HOLDS_LIGHTS = 0;
         inward = false;
     }
     *input = (sphere_shadows_input){connect(from, to, surface, inward), sphere};

@@ -26,7 +26,7 @@ struct Surface {
 };
 struct Sphere {
     Vector4 center_radius;
-    Surface surface;
+    Tags tags;
 };
 struct Plane {
     Vector4 normal_offset;

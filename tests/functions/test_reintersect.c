@@ -103,17 +103,18 @@ static void test_spheres(void **state)
         struct vec3 center = round_vector(random_point(&random));
         double radius = random_scale(&random, 1e-4, 1e4);
         struct PackedSphere sphere = {.center_radius = {center.x, center.y, center.z, (float)radius}};
-        sphere.surface.tags.SURFACE_KIND = KIND_TRANSPARENT;
         struct dvec3 aim = random_away(&random, widen(center), radius * random_between(&random, 0, 1));
         struct dvec3 origin = random_away(&random, widen(center), radius * random_scale(&random, 1.001, 1e3));
         if (random_below(&random, 8) == 0) { /* the camera is inside */
             origin = random_away(&random, widen(center), radius * random_between(&random, 0, 0.999));
-            sphere.surface.tags.HOLDS_RAYS = 1;
+            sphere.tags.HOLDS_RAYS = 1;
         }
         struct ray ray = {.origin = round_vector(origin),
                           .direction = round_vector(dvec3_unit(dvec3_subtract(aim, origin))),
                           .surface = NO_SURFACE};
-        const struct packed_scene scene = {.sphere_count = 1, .spheres = &sphere};
+        PackedSurface surface = {.tags = {0}};
+        const struct packed_scene scene = {
+            .sphere_count = 1, .looped_spheres = 1, .spheres = &sphere, .surfaces = &surface};
         struct hit hit;
         if (!find_hit(&scene, &ray, &hit))
             continue;

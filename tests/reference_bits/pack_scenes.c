@@ -19,6 +19,7 @@ static bool write_scene(FILE *file, const char *path, const struct packed_scene 
     snprintf(bytes.name, sizeof bytes.name, "%s", slash ? slash + 1 : path);
     return write_all(file, &bytes, sizeof bytes, 1) &&
            write_all(file, packed->spheres, sizeof *packed->spheres, packed->sphere_count) &&
+           write_all(file, packed->surfaces, sizeof *packed->surfaces, packed->surface_count) &&
            write_all(file, packed->planes, sizeof *packed->planes, packed->plane_count) &&
            write_all(file, packed->point_lights, sizeof *packed->point_lights, packed->point_light_count) &&
            write_all(file, packed->quad_lights, sizeof *packed->quad_lights, packed->quad_light_count);

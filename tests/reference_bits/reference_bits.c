@@ -91,6 +91,7 @@ int main(int count, char **arguments)
     while (fread(&bytes, sizeof bytes, 1, file) == 1) {
         struct packed_scene *scene = &bytes.scene;
         scene->spheres = read_items(file, sizeof *scene->spheres, scene->sphere_count);
+        scene->surfaces = read_items(file, sizeof *scene->surfaces, scene->surface_count);
         scene->planes = read_items(file, sizeof *scene->planes, scene->plane_count);
         scene->point_lights = read_items(file, sizeof *scene->point_lights, scene->point_light_count);
         scene->quad_lights = read_items(file, sizeof *scene->quad_lights, scene->quad_light_count);
@@ -100,6 +101,7 @@ int main(int count, char **arguments)
         print_explanation(bytes.name, "double", reference_explain_double, scene);
         print_explanation(bytes.name, "quad", reference_explain_quad, scene);
         free(scene->spheres);
+        free(scene->surfaces);
         free(scene->planes);
         free(scene->point_lights);
         free(scene->quad_lights);
