@@ -12,7 +12,7 @@ struct Event {
 };
 
 // More events than there is room for are counted and not written.
-layout(std430, set = 0, binding = 9) buffer EventBlock {
+layout(std430, set = 0, binding = 12) buffer EventBlock {
     uint event_count, event_room, event_first, event_unused; // event_first: of the sample
     Event events[];
 };

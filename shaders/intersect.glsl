@@ -136,8 +136,8 @@ void meet_plane(Ray ray, int i, inout Hit nearest)
         height = height > real(0) ? height : real(0); // an opaque plane is never behind the ray's origin
     }
     exact real distance = divide(height, -slope);
-    bool closer = met && ray.surface != SPHERES + i && comes_first(distance, material.tags.FILE_ORDER, nearest);
-    take(closer, nearest, distance, SPHERES + i, from_inside, shape, material, material.tags.FILE_ORDER);
+    bool closer = met && ray.surface != ALL_SPHERES + i && comes_first(distance, material.tags.FILE_ORDER, nearest);
+    take(closer, nearest, distance, ALL_SPHERES + i, from_inside, shape, material, material.tags.FILE_ORDER);
 }
 
 Hit no_hit()
@@ -156,11 +156,16 @@ Hit no_hit()
     return none;
 }
 
+#include "hierarchy.glsl"
+
+// With a hierarchy, if search.stage is SEARCH_DONE.
 Hit nearest_hit(Ray ray)
 {
     Hit nearest = no_hit();
     FOR_EACH_OBJECT(i, SPHERES, meet_sphere(ray, i, nearest);)
     FOR_EACH_OBJECT(i, PLANES, meet_plane(ray, i, nearest);)
+    if (HIERARCHY)
+        search_nearest(ray, nearest);
     return nearest;
 }
 
@@ -175,7 +180,7 @@ void hit_point(Ray ray, Hit hit, out real3 point, out real3 facing_normal)
     exact real3 position = ray.origin + hit.distance * ray.direction;
     exact real off = dot3(shape, position) - w;
     exact real3 on_plane = position - off * shape;
-    bool sphere = hit.surface < SPHERES;
+    bool sphere = hit.surface < ALL_SPHERES;
     point = sphere ? on_sphere : on_plane;
     exact real3 normal = sphere ? sphere_normal : shape;
     facing_normal = hit.from_inside ? -normal : normal;
@@ -218,9 +223,10 @@ bool plane_shadows(int i, real3 point, int surface, real3 light)
     if (!(GLASS_PLANES && get_plane(i).surface.tags.SURFACE_KIND == KIND_TRANSPARENT))
         return light_height < real(0);
     exact real point_height = dot3(normal, point) - offset;
-    return surface != SPHERES + i && ((light_height < real(0)) != (point_height < real(0)));
+    return surface != ALL_SPHERES + i && ((light_height < real(0)) != (point_height < real(0)));
 }
 
+// Unless out_of_steps.
 bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real distance, real3 light)
 {
     bool shadowed = false;
@@ -231,10 +237,12 @@ bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real dista
         if (!PROCESSOR && shadowed) // lavapipe only masks what is skipped
             return true;
     })
+    if (HIERARCHY && !shadowed)
+        shadowed = search_blocker(point, surface, inward, to_light, distance, light);
     if (PLANES_SHADOW)
         FOR_EACH_OBJECT(i, PLANES, {
             shadowed = plane_shadows(i, point, surface, light) || shadowed;
-            note_blocker(SPHERES + i, shadowed);
+            note_blocker(ALL_SPHERES + i, shadowed);
             if (!PROCESSOR && shadowed)
                 return true;
         })

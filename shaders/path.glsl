@@ -20,8 +20,8 @@ uint stack_branch[REGISTERS];
 
 // What an invocation keeps in memory, slot after slot; a slot of all invocations lies together. The first are for its work,
 // see resume.glsl, the others for the stack.
-layout(std430, set = 0, binding = 6) buffer SavedReals { real4 saved_reals[]; };
-layout(std430, set = 0, binding = 7) buffer SavedWords { uint saved_words[]; };
+layout(std430, set = 0, binding = 9) buffer SavedReals { real4 saved_reals[]; };
+layout(std430, set = 0, binding = 10) buffer SavedWords { uint saved_words[]; };
 const int STACK_REALS = RESUMABLE ? WORK_REALS : 0;
 const int STACK_WORDS = RESUMABLE ? WORK_WORDS : 0;
 
@@ -31,9 +31,11 @@ int saved_place(int slot)
     return int((uint(slot) * all.y + gl_GlobalInvocationID.y) * all.x + gl_GlobalInvocationID.x);
 }
 
+// With a hierarchy surfaces need so many bits that bounces have a word of their own.
 int path_state(Path path)
 {
-    return (path.ray.surface << 1 | int(path.ray.inward)) << 10 | path.bounces;
+    int leaves = path.ray.surface << 1 | int(path.ray.inward);
+    return HIERARCHY ? leaves : leaves << 10 | path.bounces;
 }
 
 // The state in a real number, of which only the bits count.
@@ -55,8 +57,8 @@ void set_path(inout Path path, real4 origin_weight, real4 direction_state, uint 
 #endif
     path.ray.origin = origin_weight.xyz;
     path.ray.direction = direction_state.xyz;
-    path.ray.surface = state >> 11;
-    path.ray.inward = (state >> 10 & 1) != 0;
+    path.ray.surface = HIERARCHY ? state >> 1 : state >> 11;
+    path.ray.inward = ((HIERARCHY ? state : state >> 10) & 1) != 0;
     path.weight = origin_weight.w;
     path.bounces = state & 1023;
     path.branch = branch;
@@ -77,7 +79,9 @@ void push(Path path, inout int pending)
         saved_reals[saved_place(STACK_REALS + 2 * pending)] = origin_weight;
         saved_reals[saved_place(STACK_REALS + 2 * pending + 1)] = direction_state;
         if (LIGHTS_TELL_BRANCHES)
-            saved_words[saved_place(STACK_WORDS + pending)] = path.branch;
+            saved_words[saved_place(STACK_WORDS + 2 * pending)] = path.branch;
+        if (HIERARCHY)
+            saved_words[saved_place(STACK_WORDS + 2 * pending + 1)] = uint(path.bounces);
     }
     ++pending;
 }
@@ -93,6 +97,8 @@ void pop(inout Path path, inout int pending)
         real4 origin_weight = saved_reals[saved_place(STACK_REALS + 2 * pending)];
         real4 direction_state = saved_reals[saved_place(STACK_REALS + 2 * pending + 1)];
         set_path(path, origin_weight, direction_state,
-                 LIGHTS_TELL_BRANCHES ? saved_words[saved_place(STACK_WORDS + pending)] : 0u);
+                 LIGHTS_TELL_BRANCHES ? saved_words[saved_place(STACK_WORDS + 2 * pending)] : 0u);
+        if (HIERARCHY)
+            path.bounces = int(saved_words[saved_place(STACK_WORDS + 2 * pending + 1)]);
     }
 }

@@ -1,8 +1,8 @@
 // A pixel, sample after sample: what its rays bring, what it is charged for those that are not traced, and its values in
 // the picture.
 
-layout(std430, set = 0, binding = 5) buffer Picture { real4 picture[]; }; // the tile: RGB and charges; sums until the last sample
-layout(std430, set = 0, binding = 5) buffer Counts { uvec4 counts[]; }; // the same memory, for outputs that are integers
+layout(std430, set = 0, binding = 8) buffer Picture { real4 picture[]; }; // the tile: RGB and charges; sums until the last sample
+layout(std430, set = 0, binding = 8) buffer Counts { uvec4 counts[]; }; // the same memory, for outputs that are integers
 
 const bool INTEGERS = OUTPUT == OUTPUT_RAYS || OUTPUT == OUTPUT_SIGNATURE;
 const bool CHARGED = CHARGES || PRUNES || RECORDS;

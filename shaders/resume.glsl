@@ -1,7 +1,7 @@
 // What a dispatch leaves when it has used up its turns: the invocation's state, with which the next one goes on.
 // Its path lies on top of the stack.
 
-layout(std430, set = 0, binding = 8) buffer Outcome { uint unfinished; }; // not 0: some invocation is
+layout(std430, set = 0, binding = 11) buffer Outcome { uint unfinished; }; // not 0: some invocation is
 
 Work no_work()
 {
@@ -49,6 +49,8 @@ void exchange(bool saves, inout Work work)
     real3 unused = real3(0);
     if (PRUNES)
         exchange(saves, 4, unused, work.pixel.threshold);
+    if (HIERARCHY)
+        exchange(saves, 5, unused, search.distance);
     if (SAMPLES > 1)
         exchange(saves, 2, work.pixel.sample_index);
     if (LIGHTS_TAKE_TURNS)
@@ -57,6 +59,17 @@ void exchange(bool saves, inout Work work)
         exchange(saves, 4, work.pixel.tally.secondary_rays);
         exchange(saves, 5, work.pixel.tally.shadow_rays);
         exchange(saves, 6, work.pixel.tally.signature);
+    }
+    if (HIERARCHY) {
+        uint at = uint(search.at), sphere = uint(search.sphere), blocker = uint(search.blocker);
+        exchange(saves, 7, search.stage);
+        exchange(saves, 8, at);
+        exchange(saves, 9, sphere);
+        if (RECORDS)
+            exchange(saves, 10, blocker);
+        search.at = int(at);
+        search.sphere = int(sphere);
+        search.blocker = int(blocker);
     }
 }
 

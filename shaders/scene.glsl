@@ -2,7 +2,7 @@
 // occur is compiled away.
 #include "scene_layout.h"
 
-layout(constant_id = 2) const int SPHERES = 0;
+layout(constant_id = 2) const int SPHERES = 0; // that are looped over
 layout(constant_id = 3) const int PLANES = 0;
 layout(constant_id = 4) const int POINT_LIGHTS = 0;
 layout(constant_id = 5) const int QUAD_LIGHTS = 0;
@@ -36,6 +36,8 @@ layout(constant_id = 30) const uint LIGHT_POINTS_A_TURN = ~0u; // of all lights,
 layout(constant_id = 31) const int OBJECTS_A_TURN = 1; // of a loop over them
 layout(constant_id = 32) const bool HOISTED = true; // see hoist_scene()
 layout(constant_id = 33) const bool PRIMARY_RAYS_FIRST = true; // see render_primary_rays()
+layout(constant_id = 34) const int ALL_SPHERES = 0; // those that are not looped over, too; see hierarchy.glsl
+layout(constant_id = 35) const uint MOST_STEPS = 0u; // of all searches in a dispatch
 
 const bool SECONDARY_RAYS = (MIRRORS || GLASS) && MAX_BOUNCES > 0;
 

@@ -47,10 +47,26 @@ typedef struct PackedSurface PackedSurface;
 #define OUTPUT_RAYS 1
 #define OUTPUT_SIGNATURE 2
 
+/* What the device has of the spheres that are not looped over, in records of four words; see hierarchy.glsl. */
+#define GRID_ORIGIN 0  /* records at the beginning: a point of the grid, and the boxes' largest coordinate */
+#define GRID_STEP 1
+#define STREAM 2       /* where the stream begins and ends */
+#define HEAD_RECORDS 3u /* the first pair's place */
+#define BOX_FLAG 0xc0000000u /* with a record's number the last word of a box; that of a sphere is its radius */
+
+/* A word for each record: the number of its sphere, and flags; behind them some for each sphere. */
+#define HOLDS_RAYS_FLAG 0x80000000u
+#define HOLDS_LIGHTS_FLAG 0x40000000u
+#define PLACE_IN_PAIRS 0
+#define PLACE_IN_STREAM 1
+#define SPHERE_SURFACE 2 /* index into the scene's surfaces */
+#define SPHERE_ORDER 3   /* FILE_ORDER */
+#define SPHERE_WORDS 4
+
 /* The slots of vectors and of words in which an invocation keeps its work between dispatches; behind them is
  * its stack. */
-#define WORK_REALS 5
-#define WORK_WORDS 7
+#define WORK_REALS 6
+#define WORK_WORDS 11
 
 /* What the direction of a ray, and its line projected along the normal of the parallel mirrors that reflect
  * it, may be off by after 1000 bounces, relative: a bounce loses less than 2^-20. */

@@ -37,7 +37,7 @@ real point_irradiance(Matte matte, real3 light, out real3 to_light, inout Tally 
     exact real cos_in = dot3(matte.normal, direction);
     exact real irradiance = real(0);
     bool faces = cos_in > real(0) && distance_squared > real(NEAREST_LIGHT_SQUARED);
-    if (PROCESSOR || faces) {
+    if ((PROCESSOR && !HIERARCHY) || faces) {
         tally.shadow_rays += uint(faces);
         bool lit = !in_shadow(matte.point, matte.surface, matte.inward, direction, distance, light);
         exact real unshadowed = matte_factor(matte, direction, cos_in) * (inverse * inverse);
@@ -59,7 +59,8 @@ real quad_point(Matte matte, int i, Sequence sequence, uint first_sample, int k,
     exact real projected_area = dot3(real3(get_quad_light(i).area_normal.xyz), to_light);
     bool lit = irradiance > real(0) && projected_area > real(0);
     note(tally, lit ? 1u : 0u);
-    emit_light(POINT_LIGHTS + i, k, light, projected_area);
+    if (!out_of_steps)
+        emit_light(POINT_LIGHTS + i, k, light, projected_area);
     exact real seen = lit ? irradiance * projected_area : real(0);
     return seen;
 }
@@ -79,7 +80,8 @@ real3 point_light_radiance(Matte matte, int i, inout Tally tally)
     real3 to_light;
     real irradiance = point_irradiance(matte, real3(get_point_light(i).position.xyz), to_light, tally);
     note(tally, irradiance > real(0) ? 1u : 0u);
-    emit_light(i, 0, real3(get_point_light(i).position.xyz), real(1));
+    if (!out_of_steps)
+        emit_light(i, 0, real3(get_point_light(i).position.xyz), real(1));
     exact real3 radiance = irradiance * real3(get_point_light(i).intensity.xyz);
     return radiance;
 }
@@ -98,7 +100,7 @@ real3 direct_light(Matte matte, uint sample_index, uint seed, inout Tally tally)
 
 // So many points of lights that a matte point takes several turns.
 const uint LIGHT_POINTS = uint(POINT_LIGHTS) + uint(QUAD_LIGHTS) * uint(LIGHT_SAMPLES);
-const bool LIGHTS_TAKE_TURNS = LIGHT_POINTS > LIGHT_POINTS_A_TURN;
+const bool LIGHTS_TAKE_TURNS = HIERARCHY || LIGHT_POINTS > LIGHT_POINTS_A_TURN;
 
 // How far a matte point has got.
 struct Lighting {
@@ -117,20 +119,26 @@ void begin_light(out Lighting light)
 // Adds the next points. Whether there are more.
 bool light_on(Matte matte, uint sample_index, uint seed, inout Lighting light, inout Tally tally)
 {
-    for (uint turn = 0u; turn < LIGHT_POINTS_A_TURN; ++turn) {
+    out_of_steps = false;
+    for (uint turn = 0u; turn < min(LIGHT_POINTS_A_TURN, LIGHT_POINTS) && !out_of_steps; ++turn) {
         int point = int(light.next) - POINT_LIGHTS;
+        Tally before = tally;
         if (point < 0) {
             exact real3 sum = light.sum + point_light_radiance(matte, int(light.next), tally);
-            light.sum = sum;
+            light.sum = out_of_steps ? light.sum : sum;
         } else if (light.next < LIGHT_POINTS) {
             int i = point / LIGHT_SAMPLES, k = point % LIGHT_SAMPLES;
             exact real quad_sum = light.quad_sum + quad_point(matte, i, sequence_of(seed + uint(i)),
                                                               sample_index * uint(LIGHT_SAMPLES), k, tally);
             exact real3 sum = light.sum + real3(get_quad_light(i).radiance.xyz) * quad_sum;
-            light.sum = k + 1 == LIGHT_SAMPLES ? sum : light.sum;
-            light.quad_sum = k + 1 == LIGHT_SAMPLES ? real(0) : quad_sum;
+            bool last = k + 1 == LIGHT_SAMPLES;
+            light.sum = last && !out_of_steps ? sum : light.sum;
+            light.quad_sum = out_of_steps ? light.quad_sum : last ? real(0) : quad_sum;
         }
-        light.next = min(light.next + 1u, LIGHT_POINTS);
+        if (out_of_steps)
+            tally = before;
+        else
+            light.next = min(light.next + 1u, LIGHT_POINTS);
     }
     return light.next < LIGHT_POINTS;
 }

@@ -217,13 +217,16 @@ void turn(inout Work work, uint first_row)
         begin_path(work.path, tile_origin + in_tile, work.pixel);
     work.fresh = false;
 
-    bool known = LIGHTS_TAKE_TURNS && work.light.next > 0u; // the ray has been told of
+    bool ray_is_known = HIERARCHY ? search.stage != SEARCH_FRESH : LIGHTS_TAKE_TURNS && work.light.next > 0u;
+    bool hit_is_known = HIERARCHY ? search.stage == SEARCH_DONE : ray_is_known;
     Hit hit;
     real3 point, normal;
-    emit_ray(!known, work.pixel.sample_index, work.path);
+    emit_ray(!ray_is_known, work.pixel.sample_index, work.path);
     trace(work.path, hit, point, normal);
-    emit_hit(!known, hit, point, normal);
-    if (!known)
+    if (HIERARCHY && search.stage != SEARCH_DONE)
+        return;
+    emit_hit(!hit_is_known, hit, point, normal);
+    if (!hit_is_known)
         note(work.pixel.tally, uint(hit.surface + 1) * 2u + uint(hit.from_inside));
     bool goes_on = false, lights_on = false;
     if (bounces(hit)) {
@@ -240,6 +243,8 @@ void turn(inout Work work, uint first_row)
     }
     if (goes_on)
         ++work.pixel.tally.secondary_rays;
+    if (!lights_on)
+        search.stage = SEARCH_FRESH;
     if (!goes_on && !lights_on) {
         work.fresh = true;
         if (end_sample(work.pixel)) {
@@ -258,6 +263,8 @@ uint rows_inside(uint first_row)
 void main()
 {
     hoist_scene();
+    begin_hierarchy();
+    steps = MOST_STEPS;
     tile_origin = tile.origin;
     tile_size = tile.size;
     image_size = tile.image_size;
@@ -279,7 +286,7 @@ void main()
         return;
     if (goes_on)
         load(work, first_row);
-    for (uint turns = 0u; !is_done(work) && (!RESUMABLE || turns < most_turns); ++turns)
+    for (uint turns = 0u; !is_done(work) && (!RESUMABLE || turns < most_turns) && (!HIERARCHY || steps > 0u); ++turns)
         turn(work, first_row);
     if (RESUMABLE)
         save(work);

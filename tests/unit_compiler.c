@@ -78,7 +78,7 @@ static const char *const texts[FILES] = {
     "  #  include  \"outer.glsl\" /* and a comment\n"
     "that goes on */\n"
     "layout(local_size_x = 1) in;\n"
-    "layout(std430, set = 0, binding = 5) buffer Out { float x[]; };\n"
+    "layout(std430, set = 0, binding = 8) buffer Out { float x[]; };\n"
     "MARK\n"
     "void main()\n"
     "{\n"
@@ -217,7 +217,7 @@ static void glslang_crashes(void **state)
     FILE *file = fopen("main.comp", "w");
     assert_non_null(file);
     fputs("#version 460\nlayout(local_size_x = 1) in;\n"
-          "layout(std430, set = 0, binding = 5) buffer Out { float x[]; };\n"
+          "layout(std430, set = 0, binding = 8) buffer Out { float x[]; };\n"
           "void main() { float a = x[0]; x[1] = a",
           file);
     for (int i = 0; i < 200000; ++i)
@@ -254,9 +254,9 @@ static void glslang_does_not_end(void **state)
 static void buffers_that_are_not_there(void **state)
 {
     static const char *const interfaces[] = {
-        "set = 0, binding = 10) buffer",         "set = 1, binding = 5) buffer",
+        "set = 0, binding = 12) buffer",         "set = 1, binding = 8) buffer",
         "set = 0, binding = 0) buffer",          "set = 0, binding = 1) buffer",
-        "set = 0, binding = 5) readonly buffer",
+        "set = 0, binding = 8) readonly buffer",
     };
     (void)state;
     for (int i = 0; i < 5; ++i) {
@@ -264,7 +264,7 @@ static void buffers_that_are_not_there(void **state)
         snprintf(
             text, sizeof text,
             "#version 460\nlayout(local_size_x = 1) in;\nlayout(std430, %s Out { float x[]; };\n"
-            "layout(std430, set = 0, binding = 6) buffer Kept { float y; };\nvoid main() { y = x[0]; }\n",
+            "layout(std430, set = 0, binding = 9) buffer Kept { float y; };\nvoid main() { y = x[0]; }\n",
             interfaces[i]);
         write_file("main.comp", text);
         struct compilation compilation = compile("./main.comp", no_options, STATUS_DONE);

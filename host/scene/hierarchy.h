@@ -1,7 +1,8 @@
 #ifndef VKWHITTED_SCENE_HIERARCHY_H
 #define VKWHITTED_SCENE_HIERARCHY_H
 
-#include <stddef.h>
+#include <stdbool.h>
+#include <stdint.h>
 
 #include "base/status.h"
 #include "packed_scene.h"
@@ -16,8 +17,8 @@ struct box {
 
 struct hierarchy_node {
     struct box box;
-    uint32_t left;  /* of two children, of which the right one is next to it; 0: a leaf */
-    uint32_t place; /* of a leaf: its sphere's index */
+    uint32_t left;   /* of two children, of which the right one is next to it; 0: a leaf */
+    uint32_t sphere; /* of a leaf: its index */
 };
 
 /* The root is node 0. Each leaf has one sphere. */
@@ -34,7 +35,7 @@ enum status hierarchy_build(const struct PackedSphere *spheres, uint32_t first, 
 void hierarchy_destroy(struct hierarchy *hierarchy);
 
 /* Calls visit for each sphere whose box touches the box, until it returns false. */
-void hierarchy_visit(const struct hierarchy *hierarchy, struct box box,
-                     bool (*visit)(void *user, uint32_t sphere), void *user);
+typedef bool hierarchy_visitor(void *user, uint32_t sphere);
+void hierarchy_visit(const struct hierarchy *hierarchy, struct box box, hierarchy_visitor *visit, void *user);
 
 #endif

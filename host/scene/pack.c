@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "scene/body.h"
+#include "scene/hierarchy.h"
 #include "scene/truncation.h"
 #include "scene/vector.h"
 
@@ -204,6 +205,11 @@ static enum status pack_contents(struct packing *packing)
     for (int i = 0; i < packed->sphere_count; ++i) {
         packed->spheres[i].tags.HOLDS_RAYS = holds_rays(packed, i);
         packed->spheres[i].tags.HOLDS_LIGHTS = holds_lights(packed, i);
+    }
+    if (packed->sphere_count > 24) {
+        packed->looped_spheres = 0;
+        packed->hierarchy = calloc(1, sizeof *packed->hierarchy);
+        hierarchy_build(packed->spheres, 0, (uint32_t)packed->sphere_count, packed->hierarchy);
     }
     for (int i = 0; i < body_count(packed); ++i) { /* of the last; used where all are the same */
         const PackedSurface *surface = body_surface(packed, i);

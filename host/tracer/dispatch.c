@@ -38,8 +38,7 @@ enum status dispatcher_create(const struct dispatcher_info *info, struct dispatc
         constants[i] = (struct pass_constant){i, ((const uint32_t *)&specialization)[i]};
     VkDescriptorType bindings[BINDINGS];
     for (uint32_t i = 0; i < BINDINGS; ++i)
-        bindings[i] = is_storage_buffer(i, choice.scene_in_storage) ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-                                                                    : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        bindings[i] = binding_type(i, choice.scene_in_storage);
     double start = clock_ms();
     enum status status = vulkan_pass_create(
         info->context,
@@ -146,7 +145,7 @@ enum status dispatch_frame_create(const struct dispatcher *dispatcher, uint32_t 
                                        : (VkDescriptorBufferInfo){buffer->buffer, 0, VK_WHOLE_SIZE};
     }
     if (status == STATUS_DONE)
-        status = pass_frame_create(&dispatcher->pass, memory, &frame->frame);
+        status = pass_frame_create(&dispatcher->pass, memory, info->scene_buffer.texels, &frame->frame);
     if (status != STATUS_DONE)
         dispatch_frame_destroy(dispatcher, frame);
     return status;

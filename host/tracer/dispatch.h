@@ -8,18 +8,19 @@
 /* The packed scene in the device's memory. */
 struct scene_buffer {
     struct vulkan_buffer buffer;
-    VkDescriptorBufferInfo parts[SCENE_BINDINGS]; /* of the buffer */
+    VkDescriptorBufferInfo parts[SCENE_BINDINGS]; /* of the buffer; some may not be there */
+    VkBufferView texels[SCENE_BINDINGS];          /* of those that are texel buffers */
 };
 
-/* Whether a part of the scene is too large for the device's uniform buffers. */
+/* Whether a part of the scene is too large for the device's uniform buffers, or has a hierarchy. */
 bool scene_needs_storage(const struct vulkan_context *context, const struct packed_scene *scene);
 
-/* Lays the scene's parts out in one buffer. On failure (reported) it is empty; to be destroyed by
- * vulkan_buffer_destroy(). */
-enum status scene_buffer_create(struct vulkan_context *context, const struct packed_scene *scene,
+/* Lays the scene's parts out in one buffer, to be bound as uniform or as storage buffers. On failure (reported) it is empty. */
+enum status scene_buffer_create(struct vulkan_context *context, const struct packed_scene *scene, bool storage,
                                 struct scene_buffer *scene_buffer);
+void scene_buffer_destroy(struct vulkan_context *context, struct scene_buffer *scene_buffer);
 
-/* Copies a scene with as many objects and lights over the one in the buffer. */
+/* Copies a scene without a hierarchy and with as many objects and lights over the one in the buffer. */
 void scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_scene *scene);
 
 enum { CHANNELS = 4 };

@@ -53,6 +53,13 @@ static bool primary_rays_pay(const struct vulkan_context *context, const struct 
     return long_vectors && (most_rays(scene) == 1 || samples >= UINT64_C(1) << 17);
 }
 
+/* Lanes of a vector may make their steps one after the other. */
+static void choose_steps(const struct vulkan_context *context, struct dispatch_size *size)
+{
+    size->most_steps = size->on_processor ? MOST_TURNS / context->subgroup_size : MOST_TURNS;
+    size->rows = size->on_processor ? 4 : 1;
+}
+
 /* Loops may be unrolled or not: all their turns are counted. */
 static void choose_turns(const struct packed_scene *scene, bool primary_first, struct dispatch_size *size)
 {
@@ -76,7 +83,7 @@ static void choose_turns(const struct packed_scene *scene, bool primary_first, s
     while (size->rows > 4 && turns * size->rows > size->most_turns &&
            turns * size->rows / 4 <= size->most_turns)
         size->rows /= 2; /* which costs less than to go on in the next dispatch */
-    size->resumable = turns * size->rows > size->most_turns;
+    size->resumable = scene->hierarchy || turns * size->rows > size->most_turns;
 }
 
 /* The slots in which an invocation keeps its work and its stack. */
@@ -86,7 +93,7 @@ static void choose_memory(const struct packed_scene *scene, struct dispatch_size
     if (has_kind(scene, KIND_TRANSPARENT) && (size->resumable || scene->max_bounces > REGISTERS))
         entries += (uint32_t)scene->max_bounces;
     size->saved_reals = (size->resumable ? WORK_REALS : 0) + 2 * entries;
-    size->saved_words = (size->resumable ? WORK_WORDS : 0) + entries;
+    size->saved_words = (size->resumable ? WORK_WORDS : 0) + 2 * entries;
 }
 
 /* So that a dispatch ends well within a second, and its buffers fit. */
@@ -124,7 +131,9 @@ struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
         size.rows = 16;
         size.threads = (uint32_t)sysconf(_SC_NPROCESSORS_ONLN);
     }
-    choose_turns(scene, primary_rays_pay(context, scene), &size);
+    if (scene->hierarchy)
+        choose_steps(context, &size);
+    choose_turns(scene, !scene->hierarchy && primary_rays_pay(context, scene), &size);
     choose_memory(scene, &size);
     choose_tile(context, scene, value_size, &size);
     return size;

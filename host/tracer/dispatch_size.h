@@ -15,6 +15,7 @@ struct dispatch_size {
     uint32_t objects_a_turn;            /* of a loop over objects */
     bool primary_rays_first;            /* before the loop over rays */
     uint32_t most_turns;                /* of the loop over rays */
+    uint32_t most_steps;                /* of searches in the hierarchy; 0: there is none */
     bool resumable;                     /* an invocation may take more turns than that */
     uint32_t saved_reals, saved_words;  /* slots that an invocation has in memory, see path.glsl */
     unsigned tile_pixels;               /* at most, in a tile */

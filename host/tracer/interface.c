@@ -15,9 +15,12 @@ enum {
     CLASS_STORAGE_BUFFER = 12,
 };
 
-bool is_storage_buffer(uint32_t binding, bool scene_in_storage)
+VkDescriptorType binding_type(uint32_t binding, bool scene_in_storage)
 {
-    return binding >= PICTURE || (binding != VIEW && scene_in_storage);
+    if (binding == RECORDS || binding == RECORD_WORDS)
+        return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+    return binding >= SURFACES || (binding != VIEW && scene_in_storage) ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                                                        : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
 }
 
 /* Where a variable's descriptor is. */
@@ -36,11 +39,18 @@ static bool judge_variable(uint32_t storage_class, struct place place, struct sh
                  place.set, place.binding, EVENTS - 1);
         return false;
     }
-    bool storage = is_storage_buffer(place.binding, choice.scene_in_storage);
-    if (storage_class == (storage ? CLASS_STORAGE_BUFFER : CLASS_UNIFORM))
+    const VkDescriptorType type = binding_type(place.binding, choice.scene_in_storage);
+    const bool provided =
+        choice.scene_in_storage || place.binding < RECORDS || place.binding >= SCENE_BINDINGS;
+    if (provided && storage_class == (type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER   ? CLASS_STORAGE_BUFFER
+                                      : type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ? CLASS_UNIFORM
+                                                                                  : CLASS_UNIFORM_CONSTANT))
         return true;
-    snprintf(problem, 128, "set 0, binding %u: the program provides a %s buffer there", place.binding,
-             storage ? "storage" : "uniform");
+    snprintf(problem, 128, "set 0, binding %u: the program provides a %s there", place.binding,
+             !provided                                   ? "buffer only with a large scene"
+             : type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ? "storage buffer"
+             : type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ? "uniform buffer"
+                                                         : "storage texel buffer");
     return false;
 }
 

@@ -12,6 +12,9 @@ enum {
     PLANES,
     POINT_LIGHTS,
     QUAD_LIGHTS,
+    RECORDS, /* this and the next two only where the scene is in storage buffers */
+    RECORD_WORDS,
+    SURFACES,
     SCENE_BINDINGS,
     PICTURE = SCENE_BINDINGS,
     SAVED_REALS,
@@ -21,8 +24,8 @@ enum {
     BINDINGS,
 };
 
-/* Whether the binding is a storage buffer; otherwise it is a uniform buffer. */
-bool is_storage_buffer(uint32_t binding, bool scene_in_storage);
+/* What the binding is: a uniform, storage or storage texel buffer. */
+VkDescriptorType binding_type(uint32_t binding, bool scene_in_storage);
 
 enum whitted_variant {
     WHITTED_EXACT,
@@ -50,7 +53,8 @@ struct tracer_options {
     struct spirv code;     /* of the shader that tracer_shader() tells; empty: the built-in one */
 };
 
-/* shaders/whitted.comp as compiled by the build, the scene in uniform or in storage buffers. */
+/* shaders/whitted.comp as compiled by the build, the scene in uniform or in storage buffers; only the latter has a
+ * hierarchy. */
 struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage);
 
 /* The options with which the build has glslangValidator compile it; NULL behind the last. Not for the

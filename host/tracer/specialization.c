@@ -56,6 +56,8 @@ struct specialization specialize(const struct vulkan_context *context, const str
                                                  scene->point_light_count + scene->quad_light_count <=
                                              MOST_HOISTED,
         .primary_rays_first = size->primary_rays_first && options->event_room == 0,
+        .all_spheres = scene->sphere_count,
+        .most_steps = size->most_steps,
     };
     int last_sphere_order = -1;
     for (int i = 0; i < scene->surface_count; ++i)

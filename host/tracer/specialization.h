@@ -17,6 +17,8 @@ struct specialization {
     uint32_t light_points_a_turn;
     int32_t objects_a_turn;
     VkBool32 hoisted, primary_rays_first;
+    int32_t all_spheres;
+    uint32_t most_steps;
 };
 
 /* Finds what the scene and the device, whose arithmetic is known, need, so that the pipeline holds nothing

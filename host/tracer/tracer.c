@@ -43,7 +43,7 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
     }
     info->choice = tracer_shader(context, scene, options);
     if (status == STATUS_DONE)
-        status = scene_buffer_create(context, scene, &info->scene_buffer);
+        status = scene_buffer_create(context, scene, info->choice.scene_in_storage, &info->scene_buffer);
     if (status == STATUS_DONE)
         status = dispatcher_create(info, &tracer->dispatcher);
     tiles_create(&tracer->dispatcher, &tracer->tiles);
@@ -60,7 +60,7 @@ void tracer_destroy(struct tracer **pointer)
         return;
     tiles_destroy(&tracer->tiles);
     dispatcher_destroy(&tracer->dispatcher);
-    vulkan_buffer_destroy(tracer->info.context, &tracer->info.scene_buffer.buffer);
+    scene_buffer_destroy(tracer->info.context, &tracer->info.scene_buffer);
     free(tracer);
 }
 
@@ -70,7 +70,7 @@ bool tracer_update(struct tracer *tracer, const struct packed_scene *scene)
     const struct dispatch_size *size = &tracer->dispatcher.size;
     const struct specialization built = specialize(info->context, info->scene, size, &info->options);
     const struct specialization needed = specialize(info->context, scene, size, &info->options);
-    if (memcmp(&built, &needed, sizeof built) != 0)
+    if (scene->hierarchy || memcmp(&built, &needed, sizeof built) != 0)
         return false;
     scene_buffer_update(&info->scene_buffer, scene);
     info->scene = scene;

@@ -36,6 +36,7 @@ enum status vulkan_buffer_create(struct vulkan_context *context, const char *nam
                     .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                     .size = size,
                     .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                             VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                 },
                 NULL, &buffer->buffer);
@@ -74,4 +75,30 @@ void vulkan_buffer_destroy(struct vulkan_context *context, struct vulkan_buffer 
         vkFreeMemory(context->device, buffer->memory, NULL);
     }
     *buffer = (struct vulkan_buffer){0};
+}
+
+enum status vulkan_texels_create(struct vulkan_context *context, VkDescriptorBufferInfo part, VkFormat format,
+                                 VkBufferView *view)
+{
+    VULKAN_CALL(context, vkCreateBufferView, context->device,
+                &(VkBufferViewCreateInfo){
+                    .sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                    .buffer = part.buffer,
+                    .format = format,
+                    .offset = part.offset,
+                    .range = part.range,
+                },
+                NULL, view);
+    return STATUS_DONE;
+
+error:
+    *view = VK_NULL_HANDLE;
+    return STATUS_UNABLE;
+}
+
+void vulkan_texels_destroy(struct vulkan_context *context, VkBufferView *view)
+{
+    if (!context->hung)
+        vkDestroyBufferView(context->device, *view, NULL);
+    *view = VK_NULL_HANDLE;
 }

@@ -21,6 +21,11 @@ struct vulkan_buffer {
 enum status vulkan_buffer_create(struct vulkan_context *context, const char *name, VkDeviceSize size,
                                  enum buffer_memory memory, struct vulkan_buffer *buffer);
 
+/* Part of a buffer as texels of the format. On failure (reported) *view is VK_NULL_HANDLE. */
+enum status vulkan_texels_create(struct vulkan_context *context, VkDescriptorBufferInfo part, VkFormat format,
+                                 VkBufferView *view);
+void vulkan_texels_destroy(struct vulkan_context *context, VkBufferView *view);
+
 /* Destroys a buffer that the device no longer uses, or nothing, and empties *buffer. */
 void vulkan_buffer_destroy(struct vulkan_context *context, struct vulkan_buffer *buffer);
 

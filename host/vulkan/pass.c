@@ -125,7 +125,8 @@ void vulkan_pass_destroy(struct vulkan_pass *pass)
     *pass = (struct vulkan_pass){0};
 }
 
-static enum status create_set(struct pass_frame *frame, const VkDescriptorBufferInfo *buffers)
+static enum status create_set(struct pass_frame *frame, const VkDescriptorBufferInfo *buffers,
+                              const VkBufferView *texels)
 {
     const struct vulkan_pass *pass = frame->pass;
     struct vulkan_context *context = pass->context;
@@ -135,9 +136,11 @@ static enum status create_set(struct pass_frame *frame, const VkDescriptorBuffer
         &(VkDescriptorPoolCreateInfo){
             .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
             .maxSets = 1,
-            .poolSizeCount = 2,
-            .pPoolSizes = (VkDescriptorPoolSize[]){{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, PASS_MOST_BINDINGS},
-                                                   {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, PASS_MOST_BINDINGS}},
+            .poolSizeCount = 3,
+            .pPoolSizes =
+                (VkDescriptorPoolSize[]){{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, PASS_MOST_BINDINGS},
+                                         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, PASS_MOST_BINDINGS},
+                                         {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, PASS_MOST_BINDINGS}},
         },
         NULL, &frame->descriptor_pool);
     VULKAN_CALL(context, vkAllocateDescriptorSets, context->device,
@@ -148,16 +151,21 @@ static enum status create_set(struct pass_frame *frame, const VkDescriptorBuffer
                     .pSetLayouts = &pass->set_layout,
                 },
                 &frame->set);
-    for (uint32_t i = 0; i < pass->binding_count; ++i)
-        writes[i] = (VkWriteDescriptorSet){
-            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-            .dstSet = frame->set,
-            .dstBinding = i,
-            .descriptorCount = 1,
-            .descriptorType = pass->bindings[i],
-            .pBufferInfo = &buffers[i],
-        };
-    vkUpdateDescriptorSets(context->device, pass->binding_count, writes, 0, NULL);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < pass->binding_count; ++i) {
+        const bool is_texels = pass->bindings[i] == VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+        if (is_texels ? texels && texels[i] : buffers[i].buffer != VK_NULL_HANDLE)
+            writes[count++] = (VkWriteDescriptorSet){
+                .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                .dstSet = frame->set,
+                .dstBinding = i,
+                .descriptorCount = 1,
+                .descriptorType = pass->bindings[i],
+                .pBufferInfo = &buffers[i],
+                .pTexelBufferView = is_texels ? &texels[i] : NULL,
+            };
+    }
+    vkUpdateDescriptorSets(context->device, count, writes, 0, NULL);
     return STATUS_DONE;
 
 error:
@@ -199,10 +207,10 @@ error:
 }
 
 enum status pass_frame_create(const struct vulkan_pass *pass, const VkDescriptorBufferInfo *buffers,
-                              struct pass_frame *frame)
+                              const VkBufferView *texels, struct pass_frame *frame)
 {
     *frame = (struct pass_frame){.pass = pass};
-    enum status status = create_set(frame, buffers);
+    enum status status = create_set(frame, buffers, texels);
     if (status == STATUS_DONE)
         status = create_commands(frame);
     if (status != STATUS_DONE)
@@ -348,7 +356,7 @@ enum status vulkan_compute(struct vulkan_context *context, const struct compute_
         status = pass_frame_create(
             &pass,
             (VkDescriptorBufferInfo[]){{input.buffer, 0, VK_WHOLE_SIZE}, {output.buffer, 0, VK_WHOLE_SIZE}},
-            &frame);
+            NULL, &frame);
     if (status == STATUS_DONE) {
         memcpy(input.mapped, job->input, job->input_size);
         status = pass_frame_submit(&frame, &(struct pass_dispatch){.groups_x = job->groups, .groups_y = 1});

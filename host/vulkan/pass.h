@@ -16,7 +16,7 @@ struct pass_info {
     bool fast;                             /* the device need not be told of its arithmetic */
     const struct pass_constant *constants; /* at most PASS_MOST_CONSTANTS */
     uint32_t constant_count;
-    const VkDescriptorType *bindings; /* of set 0: uniform or storage buffers; at most PASS_MOST_BINDINGS */
+    const VkDescriptorType *bindings; /* of set 0: buffers or texel buffers; at most PASS_MOST_BINDINGS */
     uint32_t binding_count;
     uint32_t push_constant_size; /* bytes, perhaps 0 */
 };
@@ -58,10 +58,10 @@ enum status vulkan_pass_create(struct vulkan_context *context, const struct pass
 /* Destroys a pass without frames, or nothing, and empties *pass. */
 void vulkan_pass_destroy(struct vulkan_pass *pass);
 
-/* Makes a frame with these buffers, one for each binding, which must outlive it, as the pass must. On failure
- * (reported) *frame is empty. */
+/* Makes a frame with these buffers, and views of texel buffers (perhaps NULL), one for each binding that the shader uses,
+ * which must outlive it, as the pass must. On failure (reported) *frame is empty. */
 enum status pass_frame_create(const struct vulkan_pass *pass, const VkDescriptorBufferInfo *buffers,
-                              struct pass_frame *frame);
+                              const VkBufferView *texels, struct pass_frame *frame);
 
 /* Destroys a frame that is not under way, or nothing, and empties *frame. */
 void pass_frame_destroy(struct pass_frame *frame);

@@ -5,7 +5,7 @@
 
 #include "vulkan/probe.h"
 
-enum { SCENE_BINDINGS = 5, INPUTS = SCENE_BINDINGS, OUTPUTS, BINDINGS };
+enum { SCENE_BINDINGS = 8, INPUTS = SCENE_BINDINGS, OUTPUTS, BINDINGS };
 enum { GROUP = 64 }; /* invocations, as in functions.comp */
 enum { CORRECTED_DIVISION = 22, CORRECTED_ROOT };
 enum { SCENE_BYTES = 1024 }; /* more than one view, or three elements of any kind */
@@ -103,7 +103,7 @@ enum status device_load(struct device *device, const struct function_test *test)
                                                 .binding_count = BINDINGS,
                                             },
                                             &device->pass);
-    return status == STATUS_DONE ? pass_frame_create(&device->pass, buffers, &device->frame) : status;
+    return status == STATUS_DONE ? pass_frame_create(&device->pass, buffers, NULL, &device->frame) : status;
 }
 
 enum status device_run(struct device *device, size_t count, double *ns)

@@ -18,8 +18,8 @@
 #define PASTE(a, b) PASTE_EXPANDED(a, b)
 
 layout(local_size_x = 64) in;
-layout(std430, set = 0, binding = 5) readonly buffer Inputs { PASTE(CALL, _input) inputs[]; };
-layout(std430, set = 0, binding = 6) writeonly buffer Outputs { PASTE(CALL, _output) outputs[]; };
+layout(std430, set = 0, binding = 8) readonly buffer Inputs { PASTE(CALL, _input) inputs[]; };
+layout(std430, set = 0, binding = 9) writeonly buffer Outputs { PASTE(CALL, _output) outputs[]; };
 
 vec3 vec3_of(Vector v)
 {
