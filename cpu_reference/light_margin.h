@@ -56,7 +56,7 @@ static inline double plane_block_margin(const struct PackedPlane *plane, int sur
     return smaller(margin, start / (e_from + rounding(length(segment->from) + fabs(offset))));
 }
 
-/* Whether the point is hidden, and how safe that is. */
+/* Whether a point is hidden, and how safe that is. */
 struct shadow {
     bool hides;
     double weakest;         /* margin of what does not block */
@@ -80,8 +80,8 @@ static inline void add_sphere(const struct packed_scene *scene, int i, const str
     add_blocker(shadow, blocks, margin);
 }
 
-static inline void add_tree(const struct packed_scene *scene, const struct segment *segment, double e_from,
-                            double e_direction, struct shadow *shadow)
+static inline void add_tree_spheres(const struct packed_scene *scene, const struct segment *segment,
+                                    double e_from, double e_direction, struct shadow *shadow)
 {
     if (is_in_tree(scene, segment->surface))
         add_sphere(scene, segment->surface, segment, e_from, e_direction, shadow);
@@ -102,14 +102,14 @@ static inline double shadow_margin(const struct packed_scene *scene, const struc
     struct shadow shadow = {.weakest = INFINITY};
     for (int i = 0; i < tried_spheres(scene); ++i)
         add_sphere(scene, i, segment, e_from, e_direction, &shadow);
+    if (scene->tree)
+        add_tree_spheres(scene, segment, e_from, e_direction, &shadow);
     for (int i = 0; i < scene->plane_count; ++i) {
         bool blocks;
         double margin =
             plane_block_margin(&scene->planes[i], scene->sphere_count + i, segment, e_from, &blocks);
         add_blocker(&shadow, blocks, margin);
     }
-    if (scene->tree)
-        add_tree(scene, segment, e_from, e_direction, &shadow);
     *hides = shadow.hides;
     return shadow.hides ? shadow.strongest_block : shadow.weakest;
 }

@@ -199,6 +199,19 @@ static inline double choice_margin(const struct packed_scene *scene, int i, cons
     return sphere_margin(scene, i, ray, error, distance, e_distance);
 }
 
+/* The least of those that the tree does not rule out: others' margin is 1 at least. */
+static inline double tree_margin(const struct packed_scene *scene, const struct ray *ray,
+                                 struct ray_error error, const struct hit *hit, double distance,
+                                 double e_distance)
+{
+    const struct tree_line line = tree_line_in_float(ray->origin, ray->direction, error);
+    struct sphere_walk walk = sphere_walk_begin(scene->tree, &line, distance + e_distance);
+    double margin = INFINITY;
+    for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
+        margin = smaller(margin, choice_margin(scene, i, ray, error, hit, distance, e_distance));
+    return margin;
+}
+
 /* Margin of the choice of the nearest hit (or of none). */
 static inline double hit_margin(const struct packed_scene *scene, const struct ray *ray,
                                 struct ray_error error, const struct hit *hit)
@@ -209,17 +222,13 @@ static inline double hit_margin(const struct packed_scene *scene, const struct r
     double margin = INFINITY;
     for (int i = 0; i < tried_spheres(scene); ++i)
         margin = smaller(margin, choice_margin(scene, i, ray, error, hit, distance, e_distance));
+    if (scene->tree)
+        margin = smaller(margin, tree_margin(scene, ray, error, hit, distance, e_distance));
     for (int i = 0; i < scene->plane_count; ++i) {
         bool nearest = scene->sphere_count + i == hit->surface;
         margin = smaller(margin, plane_margin(scene, i, ray, error, nearest ? FARTHEST_HIT : distance,
                                               nearest ? 0 : e_distance));
     }
-    if (!scene->tree)
-        return margin;
-    const struct tree_line line = tree_line_in_float(ray->origin, ray->direction, error);
-    struct sphere_walk walk = sphere_walk_begin(scene->tree, &line, distance + e_distance);
-    for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
-        margin = smaller(margin, choice_margin(scene, i, ray, error, hit, distance, e_distance));
     return margin;
 }
 

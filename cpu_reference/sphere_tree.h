@@ -11,8 +11,8 @@
 
 struct sphere_tree;
 
-/* Of spheres first to end - 1, one at least, on so many threads; up to 36 bytes a sphere. NULL without
- * memory; otherwise the caller frees it with sphere_tree_destroy(). */
+/* Of spheres first to end - 1, one at least, on so many threads; 12 to 20 bytes a sphere, and as many again
+ * while it is built. NULL without memory; otherwise the caller frees it with sphere_tree_destroy(). */
 struct sphere_tree *sphere_tree_create(const struct PackedSphere *spheres, int first, int end, int threads);
 void sphere_tree_destroy(struct sphere_tree **tree);
 
