@@ -201,9 +201,8 @@ void sphere_tree_destroy(struct sphere_tree **tree)
     *tree = NULL;
 }
 
-/* The constants of NUMERICS.md, "Many spheres". Of unit roundoffs of (distance to the centre + radius): what
- * the tracer's distance of the line from a sphere's centre loses, and the distance along the line in
- * multiples of that. */
+/* NUMERICS.md, "Many spheres: the reference's tree", derives these: the unit roundoffs of (distance + radius)
+ * that the distance of a line from a centre loses, and how many of those losses a distance along it does. */
 static const double line_roundings = 3, along_multiple = 3;
 static const double own_unit = 0x1p-51;  /* what is lost here, in double */
 static const double underflow = 0x1p-73; /* squares of less are not float's */
