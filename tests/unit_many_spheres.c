@@ -1,0 +1,161 @@
+/* Spheres that are not looped over: with the tree that the host builds for it, the reference makes the
+ * picture that it makes by trying all of them, and tells the same of each pixel. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#include <glob.h>
+#include <stdlib.h>
+
+#include "pixel/ray_tree.h"
+#include "test_render.h"
+
+enum { WIDTH = 36, HEIGHT = 24, PIXELS = WIDTH * HEIGHT, CLOUD = 1500 };
+static const struct reference_window whole = {0, 0, WIDTH, HEIGHT};
+
+/* What is packed keeps a surface for each sphere. */
+static struct packed_scene pack(const struct scene *scene)
+{
+    struct picture_settings settings = test_settings(scene);
+    struct packed_scene packed;
+    settings.width = WIDTH;
+    settings.height = HEIGHT;
+    settings.light_samples = 2;
+    assert_int_equal(pack_scene(scene, &settings, &packed), STATUS_DONE);
+    packed.looped_spheres = 0;
+    return packed;
+}
+
+static struct render_plan plan_of(const struct packed_scene *packed)
+{
+    return (struct render_plan){.scene = packed, .window = {0, 0, WIDTH, HEIGHT}, .quiet = true};
+}
+
+static void check_picture(const char *name, const struct packed_scene *packed)
+{
+    double rgb[3 * PIXELS];
+    uint32_t expected[PIXELS], *signatures;
+    struct reference_picture picture = {.rgb = rgb, .signatures = expected};
+    struct render_plan plan = plan_of(packed);
+    struct rendering rendering;
+    reference_render_float(packed, whole, 2, &picture);
+    assert_int_equal(signatures_on_cpu(&plan, &signatures), STATUS_DONE);
+    assert_memory_equal(signatures, expected, sizeof expected);
+    free(signatures);
+    picture.rays = (struct reference_rays){0};
+    reference_render_double(packed, whole, 2, &picture);
+    plan.precision = PRECISION_DOUBLE;
+    assert_int_equal(render_on_cpu(&plan, &rendering), STATUS_DONE);
+    if (memcmp(rendering.image.rgb64, rgb, sizeof rgb) != 0)
+        fail_msg("%s: the tree makes another picture", name);
+    assert_memory_equal(&rendering.rays, &picture.rays, sizeof picture.rays);
+    image_destroy(&rendering.image);
+}
+
+/* Where a margin is at least 1, it may be larger with the tree. */
+static void check_explanations(const char *name, const struct packed_scene *packed)
+{
+    static struct reference_explanation expected[PIXELS];
+    struct reference_explanation *explanations;
+    struct render_plan plan = plan_of(packed);
+    reference_explain_double(packed, whole, 2, expected);
+    assert_int_equal(explain_on_cpu(&plan, PRECISION_DOUBLE, &explanations), STATUS_DONE);
+    for (int i = 0; i < PIXELS; ++i) {
+        if (expected[i].margin >= 1 && explanations[i].margin >= expected[i].margin)
+            explanations[i].margin = expected[i].margin;
+        if (memcmp(&explanations[i], &expected[i], sizeof expected[i]) != 0)
+            fail_msg("%s, pixel %d: margin %.9g, not %.9g, or more is different", name, i,
+                     explanations[i].margin, expected[i].margin);
+    }
+    free(explanations);
+}
+
+static void check_events(const char *name, const struct packed_scene *packed)
+{
+    static struct reference_event events[1 << 16];
+    for (int i = 0; i < PIXELS; i += 31) {
+        struct render_plan plan = plan_of(packed);
+        struct reference_log log = {.events = events, .room = sizeof events / sizeof *events};
+        struct ray_tree tree;
+        plan.window = (struct window){(unsigned)(i % WIDTH), (unsigned)(i / WIDTH), 1, 1};
+        reference_record_float(packed, i % WIDTH, i / WIDTH, &log);
+        assert_int_equal(ray_tree_on_cpu(&plan, PRECISION_FLOAT, &tree), STATUS_DONE);
+        assert_int_equal(tree.count + tree.beyond, log.count);
+        size_t kept = log.count < log.room ? log.count : log.room;
+        if (memcmp(tree.events, events, kept * sizeof *events) != 0)
+            fail_msg("%s, pixel %d: other events", name, i);
+        ray_tree_destroy(&tree);
+    }
+}
+
+static void check_scene(const char *name, struct scene scene, void (*change)(struct packed_scene *packed))
+{
+    struct packed_scene packed = pack(&scene);
+    if (change)
+        change(&packed);
+    check_picture(name, &packed);
+    check_explanations(name, &packed);
+    check_events(name, &packed);
+    pack_destroy(&packed);
+    scene_destroy(&scene);
+}
+
+static void shipped_scenes(void **state)
+{
+    glob_t paths;
+    (void)state;
+    assert_int_equal(glob(SOURCE_DIR "/scenes/figure_*.yaml", 0, NULL, &paths), 0);
+    assert_int_equal(glob(SOURCE_DIR "/scenes/hard/*.yaml", GLOB_APPEND, NULL, &paths), 0);
+    assert_int_equal(glob(SOURCE_DIR "/tests/scenes/*.yaml", GLOB_APPEND, NULL, &paths), 0);
+    for (size_t i = 0; i < paths.gl_pathc; ++i) {
+        struct scene scene;
+        assert_int_equal(scene_read(paths.gl_pathv[i], &scene), STATUS_DONE);
+        check_scene(paths.gl_pathv[i], scene, NULL);
+    }
+    globfree(&paths);
+}
+
+static float random_number(uint32_t *state)
+{
+    *state = *state * UINT32_C(1664525) + UINT32_C(1013904223);
+    return (float)(*state >> 8) * 0x1p-24f;
+}
+
+/* Puts many spheres around the scene's first, of the surfaces of its spheres, which may lie in each other. */
+static void make_cloud(struct packed_scene *packed)
+{
+    const layout_vec4 middle = packed->spheres[0].center_radius;
+    uint32_t random = 7;
+    packed->spheres = realloc(packed->spheres, CLOUD * sizeof *packed->spheres);
+    assert_non_null(packed->spheres);
+    packed->sphere_count = CLOUD;
+    for (int i = 0; i < CLOUD; ++i) {
+        float x = random_number(&random) - 0.5f, y = random_number(&random) - 0.5f,
+              z = random_number(&random) - 0.5f, size = random_number(&random);
+        packed->spheres[i] = (struct PackedSphere){
+            {middle.x + x, middle.y + y, middle.z + z, 0.001f + 0.03f * size * size * size},
+            {.SURFACE = i % packed->surface_count,
+             .FILE_ORDER = CLOUD - i,
+             .HOLDS_RAYS = 1,
+             .HOLDS_LIGHTS = 1},
+        };
+    }
+}
+
+static void clouds(void **state)
+{
+    static const char *const names[] = {"scenes/figure_3b.yaml", "scenes/figure_4.yaml"};
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
+        check_scene(names[i], test_read(names[i]), make_cloud);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(shipped_scenes), cmocka_unit_test(clouds)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
