@@ -73,6 +73,13 @@ static enum status render(const struct packed_scene *scene, enum precision preci
     return STATUS_INTERRUPTED;
 }
 
+/* Of a ray: those that are looped over, and about as many steps as a tree of the other spheres has levels. */
+static double objects_tried(const struct packed_scene *scene)
+{
+    return scene->looped_spheres + scene->plane_count + 1 +
+           log2(1.0 + scene->sphere_count - scene->looped_spheres);
+}
+
 /* Estimates by some of the picture's pixels, with one sample of everything: secondary rays a pixel, and rays
  * times objects a pixel with all samples. */
 static enum status estimate(const struct packed_scene *scene, double *secondary, double *work)
@@ -89,7 +96,7 @@ static enum status estimate(const struct packed_scene *scene, double *secondary,
     double pixels = (double)pixel_grid_count(&result.grid);
     *secondary = (double)rays->secondary / pixels;
     *work = ((double)(rays->primary + rays->secondary) + (double)rays->shadow * lights) * scene->samples *
-            (scene->sphere_count + scene->plane_count + 1) / pixels;
+            objects_tried(scene) / pixels;
     grid_pixels_destroy(&result);
     return STATUS_DONE;
 }
