@@ -217,32 +217,38 @@ void turn(inout Work work, uint first_row)
         begin_path(work.path, tile_origin + in_tile, work.pixel);
     work.fresh = false;
 
-    bool ray_is_known = HIERARCHY ? search.stage != SEARCH_FRESH : LIGHTS_TAKE_TURNS && work.light.next > 0u;
-    bool hit_is_known = HIERARCHY ? search.stage == SEARCH_DONE : ray_is_known;
     Hit hit;
     real3 point, normal;
-    emit_ray(!ray_is_known, work.pixel.sample_index, work.path);
-    trace(work.path, hit, point, normal);
-    if (HIERARCHY && search.stage != SEARCH_DONE)
-        return;
-    emit_hit(!hit_is_known, hit, point, normal);
-    if (!hit_is_known)
-        note(work.pixel.tally, uint(hit.surface + 1) * 2u + uint(hit.from_inside));
-    bool goes_on = false, lights_on = false;
-    if (bounces(hit)) {
-        if (SECONDARY_RAYS && work.path.bounces < MAX_BOUNCES)
-            goes_on = bounce(work.path, work.pending, work.pixel, hit, point, normal);
-        else
-            cut_off(work.pixel, work.path);
-    } else {
+    bool goes_on, lights_on = false;
+    do { // with a hierarchy until the light at a matte point is wanted: looking for what blocks it is dear, also for lanes that wait
+        bool ray_is_known = HIERARCHY ? search.stage != SEARCH_FRESH : LIGHTS_TAKE_TURNS && work.light.next > 0u;
+        bool hit_is_known = HIERARCHY ? search.stage == SEARCH_DONE : ray_is_known;
+        emit_ray(!ray_is_known, work.pixel.sample_index, work.path);
+        trace(work.path, hit, point, normal);
+        if (HIERARCHY && search.stage != SEARCH_DONE)
+            return;
+        emit_hit(!hit_is_known, hit, point, normal);
+        if (!hit_is_known)
+            note(work.pixel.tally, uint(hit.surface + 1) * 2u + uint(hit.from_inside));
+        goes_on = false;
+        if (bounces(hit)) {
+            if (SECONDARY_RAYS && work.path.bounces < MAX_BOUNCES)
+                goes_on = bounce(work.path, work.pending, work.pixel, hit, point, normal);
+            else
+                cut_off(work.pixel, work.path);
+        }
+        if (goes_on) {
+            ++work.pixel.tally.secondary_rays;
+            search.stage = SEARCH_FRESH;
+        }
+    } while (HIERARCHY && goes_on);
+    if (!bounces(hit))
         lights_on = end_path(work.pixel, work.light, work.path, hit, point, normal);
-    }
     if (GLASS && !goes_on && !lights_on && work.pending > 0) {
         pop(work.path, work.pending);
+        ++work.pixel.tally.secondary_rays;
         goes_on = true;
     }
-    if (goes_on)
-        ++work.pixel.tally.secondary_rays;
     if (!lights_on)
         search.stage = SEARCH_FRESH;
     if (!goes_on && !lights_on) {
