@@ -7,6 +7,7 @@
 
 #include "packed_scene.h"
 #include "real.h"
+#include "sphere_tree.h"
 
 enum { NO_SURFACE = -1 }; /* surfaces are numbered spheres first, then planes */
 
@@ -24,6 +25,44 @@ struct hit {
     const PackedSurface *material;
     int file_order;
 };
+
+/* The spheres that are tried one after the other: the first so many. */
+static inline int tried_spheres(const struct packed_scene *scene)
+{
+    return scene->tree ? scene->looped_spheres : scene->sphere_count;
+}
+
+/* Whether the tree has the surface: it is tried by itself, for the tree does not know that a ray leaves it.
+ */
+static inline bool is_in_tree(const struct packed_scene *scene, int surface)
+{
+    return surface >= tried_spheres(scene) && surface < scene->sphere_count;
+}
+
+static inline struct tree_vector to_tree_vector(struct vec3 v)
+{
+    return (struct tree_vector){(double)v.x, (double)v.y, (double)v.z};
+}
+
+/* What binary128 loses when it is rounded to double for the tree. */
+static inline double tree_rounding(struct vec3 v)
+{
+    return 0x1p-52 * (double)(absolute(v.x) + absolute(v.y) + absolute(v.z));
+}
+
+/* The unit roundoff of this build's arithmetic; the tree cannot tell binary128 from double. */
+static const double real_unit = REFERENCE_BITS == 32 ? 0x1p-24 : 0x1p-53;
+
+static inline struct tree_line tree_line(struct vec3 origin, struct vec3 direction)
+{
+    return (struct tree_line){
+        .origin = to_tree_vector(origin),
+        .direction = to_tree_vector(direction),
+        .e_origin = tree_rounding(origin),
+        .e_direction = tree_rounding(direction),
+        .unit = real_unit,
+    };
+}
 
 /* Where a line passes a sphere: Haines, Guenther and Akenine-Moeller, "Precision Improvements for
  * Ray/Sphere Intersection", Ray Tracing Gems (2019), chapter 7. */
@@ -109,29 +148,61 @@ static inline void locate(const struct packed_scene *scene, const struct ray *ra
     hit->normal = hit->from_inside ? negate(normal) : normal;
 }
 
+/* Of surfaces at one distance the first of the scene file is the nearest. */
+static inline void take_if_nearer(struct hit *nearest, real distance, int surface, bool from_inside,
+                                  const PackedSurface *material, int file_order)
+{
+    if (distance < nearest->distance || (distance == nearest->distance && nearest->surface != NO_SURFACE &&
+                                         file_order < nearest->file_order)) {
+        nearest->distance = distance;
+        nearest->surface = surface;
+        nearest->from_inside = from_inside;
+        nearest->material = material;
+        nearest->file_order = file_order;
+    }
+}
+
+static inline void try_sphere(const struct packed_scene *scene, int i, const struct ray *ray,
+                              struct hit *nearest)
+{
+    const struct PackedSphere *sphere = &scene->spheres[i];
+    real distance;
+    bool from_inside;
+    if (meet_sphere(sphere, i, ray, &distance, &from_inside))
+        take_if_nearer(nearest, distance, i, from_inside, &scene->surfaces[sphere->tags.SURFACE],
+                       sphere->tags.FILE_ORDER);
+}
+
+/* Tries those that the tree does not rule out. */
+static inline void search_tree(const struct packed_scene *scene, const struct ray *ray, struct hit *nearest)
+{
+    if (is_in_tree(scene, ray->surface))
+        try_sphere(scene, ray->surface, ray, nearest);
+    const struct tree_line line = tree_line(ray->origin, ray->direction);
+    struct sphere_walk walk = sphere_walk_begin(scene->tree, &line, (double)nearest->distance);
+    for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;) {
+        try_sphere(scene, i, ray, nearest);
+        walk.limit = (double)nearest->distance;
+    }
+}
+
 /* The nearest surface on the ray's way; of surfaces at one distance the first of the scene file. */
 static inline bool find_hit(const struct packed_scene *scene, const struct ray *ray, struct hit *nearest)
 {
     *nearest = (struct hit){.distance = (real)FARTHEST_HIT, .surface = NO_SURFACE};
-    for (int i = 0; i < scene->sphere_count + scene->plane_count; ++i) {
-        int plane = i - scene->sphere_count;
+    for (int i = 0; i < tried_spheres(scene); ++i)
+        try_sphere(scene, i, ray, nearest);
+    for (int i = 0; i < scene->plane_count; ++i) {
+        const struct PackedPlane *plane = &scene->planes[i];
+        int surface = scene->sphere_count + i;
         real distance;
         bool from_inside;
-        bool met = plane < 0 ? meet_sphere(&scene->spheres[i], i, ray, &distance, &from_inside)
-                             : meet_plane(&scene->planes[plane], i, ray, &distance, &from_inside);
-        const PackedSurface *material =
-            plane < 0 ? &scene->surfaces[scene->spheres[i].tags.SURFACE] : &scene->planes[plane].surface;
-        int file_order = plane < 0 ? scene->spheres[i].tags.FILE_ORDER : material->tags.FILE_ORDER;
-        if (met && (distance < nearest->distance ||
-                    (distance == nearest->distance && nearest->surface != NO_SURFACE &&
-                     file_order < nearest->file_order))) {
-            nearest->distance = distance;
-            nearest->surface = i;
-            nearest->from_inside = from_inside;
-            nearest->material = material;
-            nearest->file_order = file_order;
-        }
+        if (meet_plane(plane, surface, ray, &distance, &from_inside))
+            take_if_nearer(nearest, distance, surface, from_inside, &plane->surface,
+                           plane->surface.tags.FILE_ORDER);
     }
+    if (scene->tree)
+        search_tree(scene, ray, nearest);
     if (nearest->surface == NO_SURFACE)
         return false;
     locate(scene, ray, nearest);
@@ -177,15 +248,36 @@ static inline bool plane_blocks(const struct PackedPlane *plane, int surface, co
     return segment->surface != surface && starts_behind != ends_behind;
 }
 
+static inline struct sphere_walk walk_segment(const struct packed_scene *scene, const struct segment *segment)
+{
+    struct tree_line line = tree_line(segment->from, segment->direction);
+    line.has_end = true;
+    line.end = to_tree_vector(segment->to);
+    line.e_end = tree_rounding(segment->to);
+    return sphere_walk_begin(scene->tree, &line, (double)segment->length);
+}
+
+static inline bool tree_blocks(const struct packed_scene *scene, const struct segment *segment)
+{
+    int own = segment->surface;
+    if (is_in_tree(scene, own) && sphere_blocks(&scene->spheres[own], own, segment))
+        return true;
+    struct sphere_walk walk = walk_segment(scene, segment);
+    for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
+        if (sphere_blocks(&scene->spheres[i], i, segment))
+            return true;
+    return false;
+}
+
 static inline bool is_blocked(const struct packed_scene *scene, const struct segment *segment)
 {
-    for (int i = 0; i < scene->sphere_count; ++i)
+    for (int i = 0; i < tried_spheres(scene); ++i)
         if (sphere_blocks(&scene->spheres[i], i, segment))
             return true;
     for (int i = 0; i < scene->plane_count; ++i)
         if (plane_blocks(&scene->planes[i], scene->sphere_count + i, segment))
             return true;
-    return false;
+    return scene->tree && tree_blocks(scene, segment);
 }
 
 #endif

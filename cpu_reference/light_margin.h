@@ -56,25 +56,62 @@ static inline double plane_block_margin(const struct PackedPlane *plane, int sur
     return smaller(margin, start / (e_from + rounding(length(segment->from) + fabs(offset))));
 }
 
+/* Whether a point is hidden, and how safe that is. */
+struct shadow {
+    bool hides;
+    double weakest;         /* margin of what does not block */
+    double strongest_block; /* of what does */
+};
+
+static inline void add_blocker(struct shadow *shadow, bool blocks, double margin)
+{
+    shadow->hides = shadow->hides || blocks;
+    if (blocks)
+        shadow->strongest_block = larger(shadow->strongest_block, margin);
+    else
+        shadow->weakest = smaller(shadow->weakest, margin);
+}
+
+static inline void add_sphere(const struct packed_scene *scene, int i, const struct segment *segment,
+                              double e_from, double e_direction, struct shadow *shadow)
+{
+    bool blocks;
+    double margin = sphere_block_margin(&scene->spheres[i], i, segment, e_from, e_direction, &blocks);
+    add_blocker(shadow, blocks, margin);
+}
+
+static inline void add_tree_spheres(const struct packed_scene *scene, const struct segment *segment,
+                                    double e_from, double e_direction, struct shadow *shadow)
+{
+    if (is_in_tree(scene, segment->surface))
+        add_sphere(scene, segment->surface, segment, e_from, e_direction, shadow);
+    struct tree_line line =
+        tree_line_in_float(segment->from, segment->direction, (struct ray_error){e_from, e_direction});
+    line.has_end = true;
+    line.end = to_tree_vector(segment->to);
+    line.e_end = tree_rounding(segment->to) + rounding(length(segment->to));
+    struct sphere_walk walk = sphere_walk_begin(scene->tree, &line, (double)segment->length);
+    for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
+        add_sphere(scene, i, segment, e_from, e_direction, shadow);
+}
+
 /* Margin of the light point's being hidden; *hides gets whether it is. */
 static inline double shadow_margin(const struct packed_scene *scene, const struct segment *segment,
                                    double e_from, double e_direction, bool *hides)
 {
-    double weakest = INFINITY, strongest_block = 0;
-    *hides = false;
-    for (int i = 0; i < scene->sphere_count + scene->plane_count; ++i) {
-        int plane = i - scene->sphere_count;
+    struct shadow shadow = {.weakest = INFINITY};
+    for (int i = 0; i < tried_spheres(scene); ++i)
+        add_sphere(scene, i, segment, e_from, e_direction, &shadow);
+    if (scene->tree)
+        add_tree_spheres(scene, segment, e_from, e_direction, &shadow);
+    for (int i = 0; i < scene->plane_count; ++i) {
         bool blocks;
         double margin =
-            plane < 0 ? sphere_block_margin(&scene->spheres[i], i, segment, e_from, e_direction, &blocks)
-                      : plane_block_margin(&scene->planes[plane], i, segment, e_from, &blocks);
-        *hides = *hides || blocks;
-        if (blocks)
-            strongest_block = larger(strongest_block, margin);
-        else
-            weakest = smaller(weakest, margin);
+            plane_block_margin(&scene->planes[i], scene->sphere_count + i, segment, e_from, &blocks);
+        add_blocker(&shadow, blocks, margin);
     }
-    return *hides ? strongest_block : weakest;
+    *hides = shadow.hides;
+    return shadow.hides ? shadow.strongest_block : shadow.weakest;
 }
 
 /* As receive(), with its error, for a point light (quad NULL) or a point of a quad; *margin is lowered to

@@ -178,6 +178,40 @@ static inline double plane_margin(const struct packed_scene *scene, int i, const
     return conjunction_margin(&met);
 }
 
+/* As tree_line(), of what the tracer in float makes of the line. */
+static inline struct tree_line tree_line_in_float(struct vec3 origin, struct vec3 direction,
+                                                  struct ray_error error)
+{
+    struct tree_line line = tree_line(origin, direction);
+    line.e_origin += error.origin;
+    line.e_direction += error.direction;
+    line.unit = unit_roundoff;
+    return line;
+}
+
+/* Margin of sphere i's being the nearest hit, which is at distance +- e_distance, or not. */
+static inline double choice_margin(const struct packed_scene *scene, int i, const struct ray *ray,
+                                   struct ray_error error, const struct hit *hit, double distance,
+                                   double e_distance)
+{
+    if (i == hit->surface) /* only whether it is met at all */
+        return sphere_margin(scene, i, ray, error, FARTHEST_HIT, 0);
+    return sphere_margin(scene, i, ray, error, distance, e_distance);
+}
+
+/* The least of those that the tree does not rule out: others' margin is 1 at least. */
+static inline double tree_margin(const struct packed_scene *scene, const struct ray *ray,
+                                 struct ray_error error, const struct hit *hit, double distance,
+                                 double e_distance)
+{
+    const struct tree_line line = tree_line_in_float(ray->origin, ray->direction, error);
+    struct sphere_walk walk = sphere_walk_begin(scene->tree, &line, distance + e_distance);
+    double margin = INFINITY;
+    for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
+        margin = smaller(margin, choice_margin(scene, i, ray, error, hit, distance, e_distance));
+    return margin;
+}
+
 /* Margin of the choice of the nearest hit (or of none). */
 static inline double hit_margin(const struct packed_scene *scene, const struct ray *ray,
                                 struct ray_error error, const struct hit *hit)
@@ -186,12 +220,10 @@ static inline double hit_margin(const struct packed_scene *scene, const struct r
     double distance = none ? FARTHEST_HIT : (double)hit->distance;
     double e_distance = none ? 0 : distance_error(scene, ray, hit->surface, distance, error);
     double margin = INFINITY;
-    for (int i = 0; i < scene->sphere_count; ++i) {
-        /* the nearest itself: only whether it is met at all */
-        bool nearest = i == hit->surface;
-        margin = smaller(margin, sphere_margin(scene, i, ray, error, nearest ? FARTHEST_HIT : distance,
-                                               nearest ? 0 : e_distance));
-    }
+    for (int i = 0; i < tried_spheres(scene); ++i)
+        margin = smaller(margin, choice_margin(scene, i, ray, error, hit, distance, e_distance));
+    if (scene->tree)
+        margin = smaller(margin, tree_margin(scene, ray, error, hit, distance, e_distance));
     for (int i = 0; i < scene->plane_count; ++i) {
         bool nearest = scene->sphere_count + i == hit->surface;
         margin = smaller(margin, plane_margin(scene, i, ray, error, nearest ? FARTHEST_HIT : distance,

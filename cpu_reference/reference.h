@@ -33,9 +33,10 @@ void reference_render_quad(const struct packed_scene *scene, struct reference_wi
 
 /* The exact picture's pixel, and what float may make of it. */
 struct reference_explanation {
-    double rgb[3];      /* linear radiance at high precision */
-    double bound[3];    /* on float's error, if it decides all as here */
-    double margin;      /* below 1, float may decide otherwise; see margin.h */
+    double rgb[3];   /* linear radiance at high precision */
+    double bound[3]; /* on float's error, if it decides all as here */
+    double margin;   /* below 1, float may decide otherwise; see margin.h. At least 1, it may be larger with
+                      * scene->tree than without */
     uint32_t signature; /* hash of every decision of the ray tree */
 };
 

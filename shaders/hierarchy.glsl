@@ -88,7 +88,7 @@ Slabs slabs_of(real3 origin, real3 direction)
     exact real slack = real(SLACK) * (larger(larger(abs(origin.x), abs(origin.y)), abs(origin.z)) + grid_largest);
     exact real3 inverse = real3(0);
     for (int a = 0; a < 3; ++a)
-        inverse[a] = native_quotient(real(1), abs(direction[a]) < real(1e-20) ? real(1e-20) : direction[a]);
+        inverse[a] = divide(real(1), abs(direction[a]) < real(1e-20) ? real(1e-20) : direction[a]);
     exact real3 scale = grid_step * inverse;
     exact real3 lo = (grid_origin - (origin + slack)) * inverse;
     exact real3 hi = (grid_origin - (origin - slack)) * inverse;

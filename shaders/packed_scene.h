@@ -21,6 +21,8 @@ struct packed_scene {
     struct PackedPlane *planes;
     struct PackedPointLight *point_lights;
     struct PackedQuadLight *quad_lights;
+    const struct sphere_tree
+        *tree; /* the reference's, of the spheres that are not looped over; NULL: it tries all of them */
 };
 
 #endif

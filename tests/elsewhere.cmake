@@ -61,7 +61,8 @@ function(add_reference_build name)
         ${compile_all}
         COMMAND ${ARGN} ${compile_reference} ${CMAKE_CURRENT_SOURCE_DIR}/reference_bits/reference_bits.c
                 -o ${folder}/reference_bits.o
-        COMMAND ${ARGN} ${objects} ${folder}/reference_bits.o -lm -o ${program}
+        COMMAND ${ARGN} ${compile_reference} ${reference}/sphere_tree.c -o ${folder}/sphere_tree.o
+        COMMAND ${ARGN} ${objects} ${folder}/sphere_tree.o ${folder}/reference_bits.o -lm -o ${program}
         DEPENDS ${reference_parts} reference_bits/reference_bits.c reference_bits/scene_bytes.h
         COMMENT "Building the reference: ${name}"
         VERBATIM)

@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "base/statistics.h"
 #include "image/srgb.h"
+#include "tracer/reference_scene.h"
 
 enum { PILOT_PIXELS = 300, ALL_BOUNCES = 64, STRIDE_OF_BOUNCES = 4, CONVERGED_SAMPLES = 65536 };
 
@@ -73,11 +74,12 @@ static enum status render(const struct packed_scene *scene, enum precision preci
     return STATUS_INTERRUPTED;
 }
 
-/* Of a ray: those that are looped over, and about as many steps as a tree of the other spheres has levels. */
-static double objects_tried(const struct packed_scene *scene)
+/* What a ray costs, in spheres that are looped over: a walk through the tree looks at some 16 balls and
+ * spheres a level, which are not at hand. */
+static double objects_a_ray(const struct packed_scene *scene)
 {
-    return scene->looped_spheres + scene->plane_count + 1 +
-           log2(1.0 + scene->sphere_count - scene->looped_spheres);
+    int many = scene->sphere_count - scene->looped_spheres;
+    return scene->looped_spheres + scene->plane_count + 1 + (many > 0 ? 32 * log2(many + 1.0) : 0);
 }
 
 /* Estimates by some of the picture's pixels, with one sample of everything: secondary rays a pixel, and rays
@@ -96,21 +98,27 @@ static enum status estimate(const struct packed_scene *scene, double *secondary,
     double pixels = (double)pixel_grid_count(&result.grid);
     *secondary = (double)rays->secondary / pixels;
     *work = ((double)(rays->primary + rays->secondary) + (double)rays->shadow * lights) * scene->samples *
-            objects_tried(scene) / pixels;
+            objects_a_ray(scene) / pixels;
     grid_pixels_destroy(&result);
     return STATUS_DONE;
 }
 
-enum status grid_render(const struct packed_scene *scene, enum precision precision, bool explained,
+enum status grid_render(const struct packed_scene *packed, enum precision precision, bool explained,
                         double work, struct progress *progress, unsigned share, struct grid_pixels *pixels)
 {
     double secondary, work_a_pixel;
+    struct reference_scene scene;
     *pixels = (struct grid_pixels){0};
-    enum status status = estimate(scene, &secondary, &work_a_pixel);
-    if (status != STATUS_DONE)
-        return status;
-    pixels->grid = pixel_grid_fitting((unsigned)scene->width, (unsigned)scene->height, work / work_a_pixel);
-    return render(scene, precision, explained, progress, share, pixels);
+    enum status status = reference_scene_create(packed, 0, &scene);
+    if (status == STATUS_DONE)
+        status = estimate(&scene.packed, &secondary, &work_a_pixel);
+    if (status == STATUS_DONE) {
+        pixels->grid =
+            pixel_grid_fitting((unsigned)packed->width, (unsigned)packed->height, work / work_a_pixel);
+        status = render(&scene.packed, precision, explained, progress, share, pixels);
+    }
+    reference_scene_destroy(&scene);
+    return status;
 }
 
 void grid_pixels_destroy(struct grid_pixels *pixels)
@@ -121,10 +129,10 @@ void grid_pixels_destroy(struct grid_pixels *pixels)
     *pixels = (struct grid_pixels){0};
 }
 
-enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *most)
+/* Raises *most, as ground_truth_bounces() does. */
+static enum status find_bounces(const struct packed_scene *scene, unsigned *most)
 {
-    struct packed_scene pilot = *packed;
-    *most = (unsigned)packed->max_bounces;
+    struct packed_scene pilot = *scene;
     while (*most < ALL_BOUNCES) {
         double secondary, work;
         unsigned next = *most + STRIDE_OF_BOUNCES;
@@ -135,6 +143,17 @@ enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *mo
         *most = (unsigned)pilot.max_bounces;
     }
     return STATUS_DONE;
+}
+
+enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *most)
+{
+    struct reference_scene scene;
+    *most = (unsigned)packed->max_bounces;
+    enum status status = reference_scene_create(packed, 0, &scene);
+    if (status == STATUS_DONE)
+        status = find_bounces(&scene.packed, most);
+    reference_scene_destroy(&scene);
+    return status;
 }
 
 enum status ground_truth_create(const struct scene *scene, struct picture_settings settings,

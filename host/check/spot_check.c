@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "tracer/reference_scene.h"
+
 /* Whether the image has the reference's pixel there, given in the window. */
 static enum status check_pixel(const struct render_plan *plan, const struct image *image, unsigned x,
                                unsigned y, bool *same)
@@ -34,12 +36,15 @@ enum status spot_check(const struct render_plan *plan, const struct image *image
     };
     const size_t pixels = (size_t)image->width * image->height;
     const unsigned count = pixels / PIXELS_EACH < MOST ? (unsigned)(pixels / PIXELS_EACH) + 1 : MOST;
-    enum status status = STATUS_DONE;
+    struct reference_scene scene;
+    struct render_plan with_tree = *plan;
+    enum status status = reference_scene_create(plan->scene, plan->threads, &scene);
+    with_tree.scene = &scene.packed;
     for (unsigned i = 0; i < count && status == STATUS_DONE; ++i) {
         const unsigned x = (unsigned)((2 * i + 1) * (uint64_t)image->width / (2 * count));
         const unsigned y = (unsigned)((2 * (i * STEP % count) + 1) * (uint64_t)image->height / (2 * count));
         bool same = false;
-        status = check_pixel(plan, image, x, y, &same);
+        status = check_pixel(&with_tree, image, x, y, &same);
         if (status != STATUS_DONE || same)
             continue;
         log_error("%s: pixel (%u, %u) is not the reference's, although the device's arithmetic seemed exact; "
@@ -47,5 +52,6 @@ enum status spot_check(const struct render_plan *plan, const struct image *image
                   device, plan->window.x + x, plan->window.y + y);
         status = STATUS_UNABLE;
     }
+    reference_scene_destroy(&scene);
     return status;
 }

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <sys/param.h>
 
+#include "tracer/reference_scene.h"
+
 /* Events that are kept, 170 MB: beyond that nobody reads. */
 enum { MOST_EVENTS = 1 << 20 };
 
@@ -72,13 +74,19 @@ enum status ray_tree_on_cpu(const struct render_plan *plan, enum precision again
                                               : reference_record_float;
     const int x = (int)plan->window.x, y = (int)plan->window.y;
     struct reference_log log = {0};
-    trace(plan->scene, x, y, &log); /* counts */
-    enum status status = allocate(tree, log.count, MOST_EVENTS);
+    struct reference_scene scene;
+    *tree = (struct ray_tree){0};
+    enum status status = reference_scene_create(plan->scene, plan->threads, &scene);
     if (status != STATUS_DONE)
         return status;
-    log = (struct reference_log){.events = tree->events, .room = tree->count};
-    trace(plan->scene, x, y, &log);
-    return STATUS_DONE;
+    trace(&scene.packed, x, y, &log); /* counts */
+    status = allocate(tree, log.count, MOST_EVENTS);
+    if (status == STATUS_DONE) {
+        log = (struct reference_log){.events = tree->events, .room = tree->count};
+        trace(&scene.packed, x, y, &log);
+    }
+    reference_scene_destroy(&scene);
+    return status;
 }
 
 void ray_tree_destroy(struct ray_tree *tree)

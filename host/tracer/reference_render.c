@@ -1,16 +1,11 @@
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/clock.h"
 #include "base/interrupt.h"
 #include "scene/truncation.h"
+#include "tracer/reference_scene.h"
 #include "tracer/render.h"
-
-static int thread_count(const struct render_plan *plan)
-{
-    return plan->threads ? (int)plan->threads : (int)sysconf(_SC_NPROCESSORS_ONLN);
-}
 
 /* At most so many rows of the plan's window, from its row y on. */
 static struct reference_window band_of(const struct render_plan *plan, unsigned y, unsigned height)
@@ -49,7 +44,7 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
     };
     struct reference_rays *rays = renderer;
     const struct window *window = &plan->window;
-    const int threads = thread_count(plan);
+    const int threads = reference_threads(plan->threads);
     unsigned band_height = 65536 / window->width + (unsigned)threads;
     size_t band_pixels = (size_t)window->width * band_height;
     double *values = calloc(band_pixels * 4, sizeof *values);
@@ -77,52 +72,80 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
 
 enum status render_on_cpu(const struct render_plan *plan, struct rendering *rendering)
 {
+    struct reference_scene scene;
+    struct render_plan with_tree = *plan;
+    double start = clock_ms();
     *rendering = (struct rendering){0};
-    return render_repeatedly(render_once_on_cpu, &rendering->rays, plan, rendering);
+    enum status status = reference_scene_create(plan->scene, plan->threads, &scene);
+    if (status != STATUS_DONE)
+        return status;
+    rendering->setup_ms = scene.built ? clock_ms() - start : 0;
+    with_tree.scene = &scene.packed;
+    status = render_repeatedly(render_once_on_cpu, &rendering->rays, &with_tree, rendering);
+    reference_scene_destroy(&scene);
+    return status;
 }
 
-enum status explain_on_cpu(const struct render_plan *plan, enum precision precision,
-                           struct reference_explanation **explanations)
+/* Explains the plan's window in bands, so that Ctrl-C is heard. */
+static enum status explain(const struct render_plan *plan, const struct packed_scene *scene,
+                           enum precision precision, struct reference_explanation *pixels)
 {
     const struct window *window = &plan->window;
-    const int threads = thread_count(plan);
-    const unsigned band_height = 4 * (unsigned)threads; /* so that Ctrl-C is heard */
-    struct reference_explanation *pixels = *explanations = allocate_pixels(window, sizeof *pixels);
-    if (!pixels)
-        return STATUS_UNABLE;
+    const int threads = reference_threads(plan->threads);
+    const unsigned band_height = 4 * (unsigned)threads;
     struct progress progress;
     progress_start(&progress, "exact picture", (uint64_t)window->width * window->height, plan->quiet);
     for (unsigned y = 0; y < window->height && !interrupt_requested(); y += band_height) {
         struct reference_window band = band_of(plan, y, band_height);
         struct reference_explanation *first = pixels + (size_t)y * window->width;
         if (precision == PRECISION_DOUBLE)
-            reference_explain_double(plan->scene, band, threads, first);
+            reference_explain_double(scene, band, threads, first);
         else
-            reference_explain_quad(plan->scene, band, threads, first);
+            reference_explain_quad(scene, band, threads, first);
         progress_advance(&progress, (uint64_t)band.width * (uint64_t)band.height);
     }
     progress_end(&progress);
-    if (!interrupt_requested())
-        return STATUS_DONE;
-    free(pixels);
+    return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_DONE;
+}
+
+enum status explain_on_cpu(const struct render_plan *plan, enum precision precision,
+                           struct reference_explanation **explanations)
+{
+    struct reference_scene scene;
+    enum status status = reference_scene_create(plan->scene, plan->threads, &scene);
     *explanations = NULL;
-    return STATUS_INTERRUPTED;
+    if (status != STATUS_DONE)
+        return status;
+    *explanations = allocate_pixels(&plan->window, sizeof **explanations);
+    status = *explanations ? explain(plan, &scene.packed, precision, *explanations) : STATUS_UNABLE;
+    reference_scene_destroy(&scene);
+    if (status == STATUS_DONE)
+        return STATUS_DONE;
+    free(*explanations);
+    *explanations = NULL;
+    return status;
 }
 
 enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatures)
 {
+    struct reference_scene scene;
+    enum status status = reference_scene_create(plan->scene, plan->threads, &scene);
+    *signatures = NULL;
+    if (status != STATUS_DONE)
+        return status;
     struct reference_picture picture = {
         .rgb = allocate_pixels(&plan->window, 3 * sizeof(double)),
-        .signatures = *signatures = allocate_pixels(&plan->window, sizeof **signatures),
+        .signatures = allocate_pixels(&plan->window, sizeof **signatures),
     };
-    bool enough = picture.rgb && picture.signatures;
-    if (enough)
-        reference_render_float(plan->scene, band_of(plan, 0, plan->window.height), thread_count(plan),
-                               &picture);
+    if (picture.rgb && picture.signatures) {
+        reference_render_float(&scene.packed, band_of(plan, 0, plan->window.height),
+                               reference_threads(plan->threads), &picture);
+        *signatures = picture.signatures;
+    } else {
+        free(picture.signatures);
+        status = STATUS_UNABLE;
+    }
     free(picture.rgb);
-    if (enough)
-        return STATUS_DONE;
-    free(*signatures);
-    *signatures = NULL;
-    return STATUS_UNABLE;
+    reference_scene_destroy(&scene);
+    return status;
 }

@@ -27,7 +27,7 @@ struct render_plan {
 
 struct rendering {
     struct image image; /* the window */
-    double setup_ms;    /* pipeline and upload; 0 on the CPU */
+    double setup_ms;    /* pipeline and upload; on the CPU the tree of many spheres, or 0 */
     double first_dispatch_ms;
     struct tracer_times times;  /* medians of the warm renderings, or of the first if there are none */
     struct reference_rays rays; /* all 0 unless counted */

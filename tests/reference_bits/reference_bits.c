@@ -95,6 +95,7 @@ int main(int count, char **arguments)
         scene->planes = read_items(file, sizeof *scene->planes, scene->plane_count);
         scene->point_lights = read_items(file, sizeof *scene->point_lights, scene->point_light_count);
         scene->quad_lights = read_items(file, sizeof *scene->quad_lights, scene->quad_light_count);
+        scene->tree = NULL;
         print_picture(bytes.name, "float", reference_render_float, scene);
         print_picture(bytes.name, "double", reference_render_double, scene);
         print_picture(bytes.name, "quad", reference_render_quad, scene);
