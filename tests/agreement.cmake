@@ -60,6 +60,11 @@ endforeach()
 # More than 2^21 pixels take two dispatches.
 add_agreement(figure_4/2051x1033 ${PROJECT_SOURCE_DIR}/scenes/figure_4.yaml --size 2051x1033)
 
+foreach(scene IN LISTS many_spheres_scenes)
+    cmake_path(GET scene STEM name)
+    add_agreement(${name}/61x41 ${scene} -q --size 61x41)
+endforeach()
+
 function(add_scattered count)
     execute_process(COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scenes/scatter_spheres.sh ${count}
                     OUTPUT_FILE ${CMAKE_CURRENT_BINARY_DIR}/scatter_${count}.yaml COMMAND_ERROR_IS_FATAL ANY)

@@ -77,6 +77,7 @@ add_cli_tests(usage no_command unknown_command unknown_option missing_argument v
               crop_outside option_of_another_command choices impossible_together several_scenes help_and_version
               manual_page completion)
 add_cli_tests(input missing_scene folder_as_scene bad_scene bad_scene_among_good_ones scene_that_is_warned_of)
+add_cli_tests(spheres bad_files rows_as_objects names_of_rows arrays)
 add_cli_tests(output formats same_bits_on_both_backends exr_metadata transfer unknown_suffix unwritable_folder
               missing_folder disk_full existing_file_kept_on_failure crop_of_16384 stats)
 add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer
@@ -92,7 +93,7 @@ if(VKWHITTED_TESTS STREQUAL "all")
 endif()
 add_cli_tests(interrupt sigint_on_device sigint_on_cpu sigterm)
 add_cli_tests(watch scene_edits_keep_the_pipeline shader_edits broken_and_repaired broken_at_the_start ways_of_saving
-              missing_includes written_slowly quick_saves idle checked_in_the_background checked_in_double validated
+              missing_includes written_slowly quick_saves spheres_from_a_file idle checked_in_the_background checked_in_double validated
               device_lost)
 if(VKWHITTED_TESTS STREQUAL "all")
     add_cli_tests(watch saves)

@@ -50,7 +50,7 @@ static enum status read_text(const char *text, struct scene *scene)
     return read_bytes(text, strlen(text), scene);
 }
 
-static enum status read_file(const char *path, struct scene *scene)
+static inline enum status read_file(const char *path, struct scene *scene)
 {
     int saved;
     FILE *file = start_capture(&saved);
@@ -59,7 +59,7 @@ static enum status read_file(const char *path, struct scene *scene)
     return status;
 }
 
-static void read_good(const char *text, struct scene *scene)
+static inline void read_good(const char *text, struct scene *scene)
 {
     if (read_text(text, scene) != STATUS_DONE)
         fail_msg("refused: %s", messages);

@@ -163,6 +163,43 @@ static void changed_while_read(void **state)
     assert_taken();
 }
 
+static bool follow_spheres(const char *path)
+{
+    char *files = path ? calloc(1, strlen(path) + 2) : NULL;
+    if (path)
+        strcpy(files, path);
+    bool same = inputs_follow_spheres(&inputs, &files);
+    assert_null(files);
+    return same;
+}
+
+/* Files with spheres are waited for when they are new, and count like the scene then. */
+static void files_with_spheres(void **state)
+{
+    (void)state;
+    assert_true(follow_spheres(NULL));
+    assert_false(taken_within(50));
+    FILE *file = fopen("rows", "w");
+    assert_non_null(file);
+    fputs("half", file);
+    fflush(file);
+    assert_false(follow_spheres("rows"));
+    assert_false(inputs_hold(&inputs));
+    assert_false(taken_within(300));
+    fclose(file);
+    assert_taken();
+    assert_true(follow_spheres("rows"));
+    assert_false(taken_within(50));
+    write_file("rows");
+    assert_taken();
+    assert_int_equal(unlink("rows"), 0);
+    assert_taken();
+    assert_false(follow_spheres(NULL));
+    assert_taken();
+    write_file("rows");
+    assert_false(taken_within(50));
+}
+
 /* Two saves of the same size in one tick of the file system's clock look the same. */
 static void quick_saves(void **state)
 {
@@ -218,7 +255,7 @@ static int teardown(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {TEST(ways_of_saving), TEST(links), TEST(half_written),
-                                       TEST(changed_while_read), TEST(quick_saves)};
+    const struct CMUnitTest tests[] = {TEST(ways_of_saving),     TEST(links),       TEST(half_written),
+                                       TEST(changed_while_read), TEST(quick_saves), TEST(files_with_spheres)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

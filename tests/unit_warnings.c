@@ -12,6 +12,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "npy_file.h"
 #include "scene/scene.h"
 #include "test_folder.h"
 
@@ -24,8 +25,9 @@
     "  - { name: Glass, type: transparent, ior: 1.5 }\n"                                                     \
     "  - { name: Air, type: transparent, ior: 0.6667 }\n"
 
-#define OVERLAP(place, a, b, others)                                                                         \
-    "vkwhitted: warning: a.yaml:" place ": transparent bodies \"" a "\" and \"" b "\" overlap" others        \
+#define OVERLAP(place, a, b, others) OVERLAP_OF(place, "\"" a "\"", "\"" b "\"", others)
+#define OVERLAP_OF(place, a, b, others)                                                                      \
+    "vkwhitted: warning: a.yaml:" place ": transparent bodies " a " and " b " overlap" others                \
     ", which the model does not cover; a body wholly inside another is no mistake, if its ior is relative "  \
     "to that "                                                                                               \
     "one's (air in glass: 1/1.5)"
@@ -167,6 +169,57 @@ static void many_spheres(void **state)
     free(scene.objects);
 }
 
+/* A row is named by its number; nothing is said of those that only touch. */
+static void rows_of_a_file(void **state)
+{
+    static float rows[][4] = {{0, 0, 4, 1}, {2, 0, 4, 1}, {9, 0, 4, 1}, {4, 0, 4, 1}, {4.5, 0, 4, 1}};
+    (void)state;
+    npy_write("rows.npy", 4, rows);
+    check_warning("objects:\n  - { name: Flake, type: spheres, file: rows.npy, material: Glass }\n", "");
+    check_warning("objects:\n"
+                  "  - { name: Flake, type: spheres, file: rows.npy, material: Glass }\n"
+                  "  - { name: A, type: sphere, center: [9, 1, 4], radius: 0.5, material: Glass }\n"
+                  "  - { name: P, type: plane, point: [0, 0, 5], normal: [0, 0, -1], material: Glass }\n",
+                  OVERLAP_OF("10:5", "\"Flake\" row 2", "\"A\"", ""));
+    npy_write("rows.npy", 5, rows);
+    check_warning("objects:\n  - { name: Flake, type: spheres, file: rows.npy, material: Glass }\n",
+                  OVERLAP_OF("9:5", "\"Flake\" row 3", "\"Flake\" row 4", ""));
+    check_warning("objects:\n  - { name: Flake, type: spheres, file: rows.npy, material: Mirror }\n", "");
+    check_warning("objects:\n"
+                  "  - { name: P, type: plane, point: [0, 0, 4.5], normal: [0, 0, -1], material: Glass }\n"
+                  "  - { name: Flake, type: spheres, file: rows.npy, material: Glass }\n",
+                  OVERLAP_OF("10:5", "\"P\"", "\"Flake\" row 0", " (and 5 other pairs)"));
+}
+
+/* A hundred thousand spheres in one place overlap in five billion pairs, of which a thousand are counted. */
+static void dense_cloud(void **state)
+{
+    enum { COUNT = 100000 };
+    float(*rows)[4] = calloc(COUNT, sizeof *rows);
+    char line[512];
+    (void)state;
+    assert_non_null(rows);
+    srand48(1);
+    for (int i = 0; i < COUNT; ++i) {
+        rows[i][0] = (float)(i < 7 ? 10 * i : drand48());
+        rows[i][3] = 1;
+    }
+    struct scene_material glass = {.type = MATERIAL_TRANSPARENT};
+    struct scene_object object = {
+        .name = "Cloud", .type = OBJECT_SPHERES, .spheres = {rows, COUNT}, .place = {3, 1}};
+    struct scene scene = {.path = "a.yaml", .material_count = 1, .materials = &glass};
+    scene.object_count = 1;
+    scene.objects = &object;
+    clock_t start = clock();
+    test_messages_begin();
+    scene_warn(&scene);
+    assert_int_equal(test_messages_end(line), 1);
+    assert_non_null(
+        strstr(line, "\"Cloud\" row 0 and \"Cloud\" row 7 overlap (and at least 999 other pairs)"));
+    assert_true((double)(clock() - start) / CLOCKS_PER_SEC < 5);
+    free(rows);
+}
+
 #define FLOOR                                                                                                \
     "objects:\n  - { name: Floor, type: plane, point: [0, 0, 0], normal: [0, 1, 0], material: Matte }\n"
 #define AND_SPHERE(y, radius, material)                                                                      \
@@ -189,6 +242,12 @@ static void lights_that_shine_away(void **state)
     check_warning(FLOOR AND_PLANE("[0, 3, 0]", "[0, 1, 0]") "lights:\n" UP, "");
     check_warning(FLOOR AND_PLANE("[0, 0, 8]", "[0, 0, 1]") "lights:\n" UP, "");
     check_warning("objects: []\nlights:\n" UP, "");
+    static float rows[][4] = {{0, 1, 0, 0.5}, {0, -5, 0, 1}, {0, 3, 0, 1.5}};
+    const char *cloud = FLOOR "  - { name: C, type: spheres, file: rows.npy, material: Matte }\nlights:\n" UP;
+    npy_write("rows.npy", 2, rows);
+    check_warning(cloud, SWAP("12:5"));
+    npy_write("rows.npy", 3, rows);
+    check_warning(cloud, "");
 }
 
 int main(void)
@@ -200,7 +259,9 @@ int main(void)
         cmocka_unit_test(bodies_inside_bodies),
         cmocka_unit_test(panes),
         cmocka_unit_test(many_spheres),
+        cmocka_unit_test(rows_of_a_file),
+        cmocka_unit_test(dense_cloud),
         cmocka_unit_test(lights_that_shine_away),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, test_folder_setup, test_folder_teardown);
 }

@@ -16,9 +16,10 @@ static json_t *field_json(const struct pixel_trace *trace, const struct event_fi
                           const struct reference_event *event, const double *values)
 {
     const double fact = event_value(event, field, 0), scale = pow(trace->scale, field->metres);
+    char name[SURFACE_NAME];
     switch (field->type) {
     case FIELD_OBJECT:
-        return json_string(surface_name(trace, fact));
+        return json_string(surface_name(trace, fact, name));
     case FIELD_FLAG:
         return json_boolean(fact != 0);
     case FIELD_NUMBER:

@@ -50,12 +50,12 @@ static bool differs(const struct event_field *field, const struct reference_even
 
 static void print_value(const struct pixel_trace *trace, const struct event_field *field, double value)
 {
-    char text[NUMBER_TEXT];
+    char text[NUMBER_TEXT], name[SURFACE_NAME];
     const char *const *names = field->names;
     if (field->type == FIELD_FLAG)
         fputs(value != 0 ? "yes" : "no", stdout);
     else if (field->type == FIELD_OBJECT)
-        fputs(surface_name(trace, value), stdout);
+        fputs(surface_name(trace, value, name), stdout);
     else if (names)
         fputs(value >= 0 && value < (double)MOST_EVENT_NAMES && names[(int)value] ? names[(int)value] : "?",
               stdout);
@@ -211,12 +211,13 @@ static void print_ray_heading(struct walk *walk)
     const struct pixel_trace *trace = walk->trace;
     const struct reference_event *ray = walk->step.device;
     const int bounces = ray->head.place.EVENT_BOUNCES;
+    char name[SURFACE_NAME];
     walk->indent = 2 * (bounces < DEEPEST_INDENT ? bounces : DEEPEST_INDENT);
     printf("%*s%s", walk->indent, "", describe_ray(&trace->device, ray));
     if (trace->job->packed.samples > 1)
         printf(", sample %d", ray->head.place.EVENT_OF_SAMPLE);
     if (bounces > 0)
-        printf(", bounce %d, from %s", bounces, surface_name(trace, ray->head.facts.EVENT_SURFACE));
+        printf(", bounce %d, from %s", bounces, surface_name(trace, ray->head.facts.EVENT_SURFACE, name));
     if (!walk->step.reference)
         fputs("; the reference has no such ray", stdout);
     if (trace->against != PRECISION_FLOAT && !walk->step.exact)

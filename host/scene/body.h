@@ -4,6 +4,7 @@
 #include <stdbool.h>
 
 #include "packed_scene.h"
+#include "scene/hierarchy.h"
 #include "scene/scene.h"
 #include "scene/vector.h"
 
@@ -18,8 +19,18 @@ struct body {
     double number;
 };
 
-static inline struct body body_of(const struct scene_object *object)
+/* A row of a file with spheres is a body of its own. */
+static inline size_t object_body_count(const struct scene_object *object)
 {
+    return object->type == OBJECT_SPHERES ? object->spheres.count : 1;
+}
+
+static inline struct body body_of(const struct scene_object *object, size_t row)
+{
+    if (object->type == OBJECT_SPHERES) {
+        const float *at = object->spheres.rows[row];
+        return (struct body){true, {(double)at[0], (double)at[1], (double)at[2]}, (double)at[3]};
+    }
     if (object->type == OBJECT_SPHERE)
         return (struct body){true, dvec3_of(object->sphere.center), object->sphere.radius};
     struct dvec3 normal = dvec3_unit(dvec3_of(object->plane.normal));
@@ -48,6 +59,18 @@ static inline struct body body_packed(const struct packed_scene *scene, int i)
 {
     layout_vec4 shape = body_shape(scene, i);
     return (struct body){i < scene->sphere_count, dvec3_of_vec4(shape), (double)shape.w};
+}
+
+/* Around a ball, rounded outwards. */
+static inline struct box body_box(struct body ball)
+{
+    const double center[3] = {ball.vector.x, ball.vector.y, ball.vector.z};
+    struct box box;
+    for (int a = 0; a < 3; ++a) {
+        box.lo[a] = nextafterf((float)(center[a] - ball.number), -INFINITY);
+        box.hi[a] = nextafterf((float)(center[a] + ball.number), INFINITY);
+    }
+    return box;
 }
 
 /* Of a point from the body's surface; negative inside. */

@@ -83,6 +83,13 @@ void report_print(struct diagnostics *report)
     report->count = 0;
 }
 
+void report_discard(struct diagnostics *report)
+{
+    for (size_t i = 0; i < report->count && i < REPORT_MAX_ERRORS; i++)
+        free(report->errors[i].message);
+    report->count = 0;
+}
+
 const char *report_quote(const char *text, size_t length, char out[REPORT_QUOTE_SIZE])
 {
     static const char ellipsis[] = "...";

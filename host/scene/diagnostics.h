@@ -22,7 +22,8 @@ struct diagnostics {
         struct scene_place place;
         char *message;
     } errors[REPORT_MAX_ERRORS];
-    bool no_memory; /* an allocation failed anywhere in the reading */
+    bool no_memory;   /* an allocation failed anywhere in the reading */
+    bool interrupted; /* by the user */
 };
 
 __attribute__((format(printf, 3, 4))) void report_error(struct diagnostics *report, struct scene_place place,
@@ -31,6 +32,9 @@ __attribute__((format(printf, 3, 4))) void report_error(struct diagnostics *repo
 /* Prints each error to standard error as "path:line:column: error: message", the line and a caret, and frees
  * the messages. */
 void report_print(struct diagnostics *report);
+
+/* Frees the messages without a word. */
+void report_discard(struct diagnostics *report);
 
 /* Writes text between double quotes, shortened where long, control characters replaced; returns out. */
 const char *report_quote(const char *text, size_t length, char out[REPORT_QUOTE_SIZE]);

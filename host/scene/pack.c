@@ -4,8 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/interrupt.h"
 #include "scene/body.h"
-#include "scene/hierarchy.h"
+#include "scene/hollow.h"
+#include "scene/looped.h"
 #include "scene/truncation.h"
 #include "scene/vector.h"
 
@@ -17,6 +19,7 @@ static const double brightest = 1e12;
 struct packing {
     const struct scene *scene;
     double scale; /* from metres to scene units, a power of two */
+    struct looped looped;
     struct packed_scene *packed;
 };
 
@@ -49,10 +52,10 @@ static void pack_view(struct packing *packing)
     };
 }
 
-static PackedSurface pack_surface(const struct scene *scene, const struct scene_object *object)
+static PackedSurface pack_surface(const struct scene *scene, const struct scene_object *object, int order)
 {
     const struct scene_material *material = &scene->materials[object->material];
-    PackedSurface surface = {.tags.FILE_ORDER = (int)(object - scene->objects)};
+    PackedSurface surface = {.tags.FILE_ORDER = order};
     double sigma_squared = material->roughness * material->roughness, ior = material->ior;
     switch (material->type) {
     case MATERIAL_MATTE:
@@ -89,11 +92,12 @@ static bool hides(const struct packed_scene *packed, int i, bool is_ball, layout
            first.x == shape.x && first.y == shape.y && first.z == shape.z && first.w == shape.w;
 }
 
-static void pack_object(struct packing *packing, const struct scene_object *object)
+/* A plane, or a sphere that is looped over. */
+static void pack_body(struct packing *packing, const struct scene_object *object, size_t row, int order)
 {
     struct packed_scene *packed = packing->packed;
-    const struct body body = body_of(object);
-    PackedSurface surface = pack_surface(packing->scene, object);
+    const struct body body = body_of(object, row);
+    PackedSurface surface = pack_surface(packing->scene, object, order);
     bool turned = !body.is_ball && !is_transparent(&surface) &&
                   body_distance(body, dvec3_of(packing->scene->camera.position)) < 0;
     double sign = turned ? -1 : 1;
@@ -104,12 +108,65 @@ static void pack_object(struct packing *packing, const struct scene_object *obje
             return;
     surface.tags.CASTS_SHADOWS = !body.is_ball && is_transparent(&surface);
     if (body.is_ball) {
-        packed->spheres[packed->sphere_count++] = (struct PackedSphere){
-            shape, {.SURFACE = packed->surface_count, .FILE_ORDER = surface.tags.FILE_ORDER}};
+        packed->spheres[packed->sphere_count++] =
+            (struct PackedSphere){shape, {.SURFACE = packed->surface_count, .FILE_ORDER = order}};
         packed->surfaces[packed->surface_count++] = surface;
         packed->looped_spheres = packed->sphere_count;
     } else
         packed->planes[packed->plane_count++] = (struct PackedPlane){shape, surface};
+}
+
+static void pack_planes_and_looped(struct packing *packing)
+{
+    const struct scene *scene = packing->scene;
+    size_t sphere = 0;
+    int order = 0;
+    for (size_t i = 0; i < scene->object_count; ++i)
+        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row, ++order)
+            if (scene->objects[i].type == OBJECT_PLANE || is_looped(&packing->looped, sphere++))
+                pack_body(packing, &scene->objects[i], row, order);
+}
+
+/* The other spheres of an object, whose first body has that place in the file; *sphere is its first one's
+ * number. */
+static void pack_rows(struct packing *packing, const struct scene_object *object, int order, size_t *sphere)
+{
+    struct packed_scene *packed = packing->packed;
+    const int surface = packed->surface_count, before = packed->sphere_count;
+    for (size_t row = 0; row < object_body_count(object); ++row) {
+        if (is_looped(&packing->looped, (*sphere)++))
+            continue;
+        const struct body body = body_of(object, row);
+        packed->spheres[packed->sphere_count++] = (struct PackedSphere){
+            to_vec4(dvec3_scale(packing->scale, body.vector), packing->scale * body.number),
+            {.SURFACE = surface, .FILE_ORDER = order + (int)row}};
+    }
+    if (packed->sphere_count > before)
+        packed->surfaces[packed->surface_count++] = pack_surface(packing->scene, object, order);
+}
+
+static enum status pack_others(struct packing *packing)
+{
+    const struct scene *scene = packing->scene;
+    struct packed_scene *packed = packing->packed;
+    size_t sphere = 0;
+    int order = 0;
+    for (size_t i = 0; i < scene->object_count && !interrupt_requested(); ++i) {
+        if (scene->objects[i].type != OBJECT_PLANE)
+            pack_rows(packing, &scene->objects[i], order, &sphere);
+        order += (int)object_body_count(&scene->objects[i]);
+    }
+    if (interrupt_requested())
+        return STATUS_INTERRUPTED;
+    if (packed->sphere_count == packed->looped_spheres)
+        return STATUS_DONE;
+    packed->hierarchy = calloc(1, sizeof *packed->hierarchy);
+    if (!packed->hierarchy) {
+        log_error("%s: no memory for a hierarchy", scene->path);
+        return STATUS_UNABLE;
+    }
+    return hierarchy_build(packed->spheres, (uint32_t)packed->looped_spheres,
+                           (uint32_t)(packed->sphere_count - packed->looped_spheres), packed->hierarchy);
 }
 
 static bool lies_behind(const struct packed_scene *packed, int plane, struct dvec3 point)
@@ -165,68 +222,43 @@ static enum status pack_light(struct packing *packing, const struct scene_light 
     return STATUS_DONE;
 }
 
-/* Whether a ray or a shading point can lie within the sphere other than on it: the camera is in it, or it is
- * transparent and another surface reaches in. */
-static bool holds_rays(const struct packed_scene *packed, int sphere)
+/* The last one's, to be used where all are the same. */
+static void share_roughness(struct packed_scene *packed)
 {
-    const struct body holder = body_packed(packed, sphere);
-    bool holds = body_distance(holder, dvec3_of_vec4(packed->view.position)) < 0;
-    for (int i = 0; i < body_count(packed) && is_transparent(body_surface(packed, sphere)) && !holds; ++i)
-        holds = i != sphere && body_reaches_into(body_packed(packed, i), holder);
-    return holds;
-}
-
-/* Whether some point of a light may lie within the sphere; for quads, of the ball around them. */
-static bool holds_lights(const struct packed_scene *packed, int sphere)
-{
-    const struct body holder = body_packed(packed, sphere);
-    bool holds = false;
-    for (int i = 0; i < packed->point_light_count; ++i)
-        holds |= body_distance(holder, dvec3_of_vec4(packed->point_lights[i].position)) < 0;
-    for (int i = 0; i < packed->quad_light_count; ++i) {
-        const struct PackedQuadLight *quad = &packed->quad_lights[i];
-        struct dvec3 u = dvec3_of_vec4(quad->edge_u), v = dvec3_of_vec4(quad->edge_v);
-        struct dvec3 middle = dvec3_add(dvec3_of_vec4(quad->corner), dvec3_scale(0.5, dvec3_add(u, v)));
-        holds |= body_distance(holder, middle) < (dvec3_length(u) + dvec3_length(v)) / 2;
+    for (int i = 0; i < packed->surface_count + packed->plane_count; ++i) {
+        const PackedSurface *surface = i < packed->surface_count
+                                           ? &packed->surfaces[i]
+                                           : &packed->planes[i - packed->surface_count].surface;
+        if (surface->tags.SURFACE_KIND == KIND_MATTE)
+            packed->view.matte = (layout_vec4){.SHARED_A = surface->parameters.OREN_NAYAR_A,
+                                               .SHARED_B = surface->more_parameters.OREN_NAYAR_B};
     }
-    return holds;
 }
 
 static enum status pack_contents(struct packing *packing)
 {
     const struct scene *scene = packing->scene;
-    struct packed_scene *packed = packing->packed;
     pack_view(packing);
-    for (size_t i = 0; i < scene->object_count; ++i)
-        pack_object(packing, &scene->objects[i]);
-    for (size_t i = 0; i < scene->light_count; ++i)
-        if (pack_light(packing, &scene->lights[i]) != STATUS_DONE)
-            return STATUS_REFUSED;
-    for (int i = 0; i < packed->sphere_count; ++i) {
-        packed->spheres[i].tags.HOLDS_RAYS = holds_rays(packed, i);
-        packed->spheres[i].tags.HOLDS_LIGHTS = holds_lights(packed, i);
-    }
-    if (packed->sphere_count > 24) {
-        packed->looped_spheres = 0;
-        packed->hierarchy = calloc(1, sizeof *packed->hierarchy);
-        hierarchy_build(packed->spheres, 0, (uint32_t)packed->sphere_count, packed->hierarchy);
-    }
-    for (int i = 0; i < body_count(packed); ++i) { /* of the last; used where all are the same */
-        const PackedSurface *surface = body_surface(packed, i);
-        if (surface->tags.SURFACE_KIND == KIND_MATTE)
-            packed->view.matte = (layout_vec4){.SHARED_A = surface->parameters.OREN_NAYAR_A,
-                                               .SHARED_B = surface->more_parameters.OREN_NAYAR_B};
-    }
-    return STATUS_DONE;
+    pack_planes_and_looped(packing);
+    enum status status = pack_others(packing);
+    for (size_t i = 0; i < scene->light_count && status == STATUS_DONE; ++i)
+        status = pack_light(packing, &scene->lights[i]);
+    if (status == STATUS_DONE)
+        status = hollow_pack(packing->packed);
+    if (status == STATUS_DONE)
+        share_roughness(packing->packed);
+    return status;
 }
 
 double pack_scale(const struct scene *scene)
 {
     double extent = dvec3_largest(dvec3_of(scene->camera.position));
-    for (size_t i = 0; i < scene->object_count; ++i) {
-        const struct body body = body_of(&scene->objects[i]);
-        extent = fmax(extent, body.is_ball ? dvec3_largest(body.vector) + body.number : fabs(body.number));
-    }
+    for (size_t i = 0; i < scene->object_count; ++i)
+        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row) {
+            const struct body body = body_of(&scene->objects[i], row);
+            extent =
+                fmax(extent, body.is_ball ? dvec3_largest(body.vector) + body.number : fabs(body.number));
+        }
     for (size_t i = 0; i < scene->light_count; ++i) {
         const struct scene_light *light = &scene->lights[i];
         if (light->type == LIGHT_POINT)
@@ -244,24 +276,26 @@ double pack_scale(const struct scene *scene)
 enum status pack_scene(const struct scene *scene, const struct picture_settings *settings,
                        struct packed_scene *packed)
 {
+    const struct looped looped = looped_choose(scene);
     *packed = (struct packed_scene){
         .width = (int)settings->width,
         .height = (int)settings->height,
         .max_bounces = (int)settings->max_bounces,
         .samples = (int)settings->samples,
         .light_samples = (int)settings->light_samples,
-        .spheres = calloc(scene->object_count + 1, sizeof *packed->spheres),
-        .surfaces = calloc(scene->object_count + 1, sizeof *packed->surfaces),
+        .spheres = calloc(looped.sphere_count + 1, sizeof *packed->spheres),
+        .surfaces = calloc(scene->object_count + MOST_LOOPED, sizeof *packed->surfaces),
         .planes = calloc(scene->object_count + 1, sizeof *packed->planes),
         .point_lights = calloc(scene->light_count + 1, sizeof *packed->point_lights),
         .quad_lights = calloc(scene->light_count + 1, sizeof *packed->quad_lights),
     };
-    struct packing packing = {.scene = scene, .scale = pack_scale(scene), .packed = packed};
+    struct packing packing = {.scene = scene, .scale = pack_scale(scene), .looped = looped, .packed = packed};
     enum status status = STATUS_UNABLE;
     if (packed->spheres && packed->surfaces && packed->planes && packed->point_lights && packed->quad_lights)
         status = pack_contents(&packing);
     else
-        log_error("%s: no memory for %zu objects", scene->path, scene->object_count);
+        log_error("%s: no memory for %zu objects and %zu spheres", scene->path, scene->object_count,
+                  looped.sphere_count);
     if (status == STATUS_DONE)
         truncation_pack(packed, settings->has_max_error ? settings->max_error : -1);
     else
@@ -273,6 +307,9 @@ void pack_destroy(struct packed_scene *packed)
 {
     free(packed->spheres);
     free(packed->surfaces);
+    if (packed->hierarchy)
+        hierarchy_destroy(packed->hierarchy);
+    free(packed->hierarchy);
     free(packed->planes);
     free(packed->point_lights);
     free(packed->quad_lights);

@@ -9,6 +9,7 @@
 #include "base/text_file.h"
 #include "scene/scene.h"
 #include "scene/schema.h"
+#include "scene/spheres_file.h"
 #include "scene/vector.h"
 
 /* Lengths far from the ends of float's range leave room for squares: 1e15 squared is 1e30. */
@@ -66,7 +67,7 @@ static const struct field material_fields[MAX_FIELDS] = {
 static const struct schema material_schema = {
     .label = "material", .types = {"matte", "mirror", "transparent"}, .fields = material_fields};
 
-enum { SPHERE = 1 << OBJECT_SPHERE, PLANE = 1 << OBJECT_PLANE };
+enum { SPHERE = 1 << OBJECT_SPHERE, PLANE = 1 << OBJECT_PLANE, SPHERES = 1 << OBJECT_SPHERES };
 static const struct field object_fields[MAX_FIELDS] = {
     {"name", read_name, true, 0, offsetof(struct scene_object, name), NULL},
     {"type", read_type, true, 0, offsetof(struct scene_object, type), NULL},
@@ -75,9 +76,12 @@ static const struct field object_fields[MAX_FIELDS] = {
     {"radius", read_number, true, SPHERE, offsetof(struct scene_object, sphere.radius), &positive_length},
     {"point", read_vector, true, PLANE, offsetof(struct scene_object, plane.point), &coordinate},
     {"normal", read_vector, true, PLANE, offsetof(struct scene_object, plane.normal), NULL},
+    {"file", NULL, true, SPHERES, 0, NULL},
 };
 static const struct schema object_schema = {
-    .label = "object", .type_alone = true, .types = {"sphere", "plane"}, .fields = object_fields};
+    .label = "object", .type_alone = true, .types = {"sphere", "plane", "spheres"}, .fields = object_fields};
+static const struct npy_column row_columns[NPY_COLUMNS] = {
+    {"x", &coordinate}, {"y", &coordinate}, {"z", &coordinate}, {"radius", &positive_length}};
 
 enum { POINT = 1 << LIGHT_POINT, QUAD = 1 << LIGHT_QUAD };
 static const struct field light_fields[MAX_FIELDS] = {
@@ -104,6 +108,7 @@ struct reading {
     struct scene *scene;
     struct mapping top;
     void *material_names, *object_names; /* of struct named, for tsearch() */
+    size_t sphere_count;
 };
 
 static int compare_names(const void *a, const void *b)
@@ -183,6 +188,18 @@ static void find_material(struct reading *reading, struct mapping *mapping, stru
         schema_expect(mapping, &value, "material", "the name of a material");
 }
 
+static void count_spheres(struct reading *reading, struct mapping *mapping, const struct scene_object *object)
+{
+    size_t count = object->type == OBJECT_PLANE     ? 0
+                   : object->type == OBJECT_SPHERES ? object->spheres.count
+                                                    : 1;
+    if (reading->sphere_count + count > SCENE_MAX_SPHERES)
+        schema_refuse(mapping, mapping->value.written, "is one sphere too many: a scene may have %d",
+                      SCENE_MAX_SPHERES);
+    else
+        reading->sphere_count += count;
+}
+
 static void read_object(struct reading *reading, const struct yaml_value *value, void *item)
 {
     struct scene_object *object = item;
@@ -191,6 +208,9 @@ static void read_object(struct reading *reading, const struct yaml_value *value,
     add_name(&mapping, object->name, item, &reading->object_names);
     find_material(reading, &mapping, object);
     object->place = yaml_place(reading->report, value->written);
+    if (mapping.type == OBJECT_SPHERES)
+        spheres_file_read(&mapping, row_columns, SCENE_MAX_SPHERES - reading->sphere_count, object);
+    count_spheres(reading, &mapping, object);
     if (mapping.good && object->type == OBJECT_PLANE && dvec3_largest(dvec3_of(object->plane.normal)) == 0)
         schema_refuse(&mapping, schema_find(&mapping, "normal").written, "normal must not be zero");
 }
@@ -228,7 +248,9 @@ static void *read_list(struct reading *reading, const char *name, size_t item_si
     char *list = items > 0 ? calloc((size_t)items, item_size) : NULL;
     reading->report->no_memory |= items > 0 && !list;
     void *at = NULL;
-    for (*count = 0; list && *count < (size_t)items && !reading->report->no_memory; ++*count) {
+    for (*count = 0;
+         list && *count < (size_t)items && !reading->report->no_memory && !reading->report->interrupted;
+         ++*count) {
         const struct yaml_value item =
             yaml_read(reading->report, fy_node_sequence_iterate(value.node, &at), value.written);
         read_item(reading, &item, list + *count * item_size);
@@ -280,9 +302,12 @@ enum status scene_read_text(const char *path, const char *text, size_t length, s
     }
     fy_document_destroy(document);
 
-    enum status status = report.no_memory ? STATUS_UNABLE : report.count > 0 ? STATUS_REFUSED : STATUS_DONE;
+    enum status status = report.interrupted ? STATUS_INTERRUPTED
+                         : report.no_memory ? STATUS_UNABLE
+                         : report.count > 0 ? STATUS_REFUSED
+                                            : STATUS_DONE;
     report_print(&report);
-    if (report.no_memory)
+    if (status == STATUS_UNABLE)
         log_error("no memory to read the scene file %s", path);
     if (status != STATUS_DONE)
         scene_destroy(scene);
@@ -316,8 +341,11 @@ void scene_destroy(struct scene *scene)
 {
     for (size_t i = 0; i < scene->material_count; i++)
         free(scene->materials[i].name);
-    for (size_t i = 0; i < scene->object_count; i++)
+    for (size_t i = 0; i < scene->object_count; i++) {
         free(scene->objects[i].name);
+        if (scene->objects[i].type == OBJECT_SPHERES)
+            free(scene->objects[i].spheres.rows);
+    }
     free(scene->path);
     free(scene->materials);
     free(scene->objects);

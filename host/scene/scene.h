@@ -23,7 +23,7 @@ struct scene_material {
     double ior;       /* transparent: index of refraction against vacuum */
 };
 
-enum object_type { OBJECT_SPHERE, OBJECT_PLANE };
+enum object_type { OBJECT_SPHERE, OBJECT_PLANE, OBJECT_SPHERES };
 
 struct scene_object {
     char *name;
@@ -36,6 +36,10 @@ struct scene_object {
         struct {
             double point[3], normal[3]; /* normal of any length but 0 */
         } plane;
+        struct {
+            float (*rows)[4]; /* center, radius */
+            size_t count;     /* perhaps 0 */
+        } spheres;
     };
     struct scene_place place;
 };
@@ -79,16 +83,23 @@ enum {
     SCENE_MAX_BOUNCES = 1000,
     SCENE_MAX_SAMPLES = 65536,      /* light samples a point, and samples a pixel */
     SCENE_MAX_FILE_SIZE = 16 << 20, /* bytes; a thousand objects take a tenth of one MiB */
+    SCENE_MAX_SPHERES = 16000000,   /* in all: 48 bytes each, and what finds them */
 };
 
-/* Reads and checks the YAML scene file at path. On STATUS_DONE the caller owns *scene and frees it
- * with scene_destroy(). Otherwise *scene is empty, and everything wrong that could be found has been
- * reported on standard error as "path:line:column: error: ..." with the line and a caret:
- * STATUS_REFUSED for a file that is not a scene, STATUS_UNABLE where there is no memory. */
+/* Reads and checks the YAML scene file at path, and the files with spheres that it names. On STATUS_DONE the
+ * caller owns *scene and frees it with scene_destroy(). Otherwise *scene is empty, and everything wrong that
+ * could be found has been reported on standard error as "path:line:column: error: ..." with the line and a
+ * caret: STATUS_REFUSED for a file that is not a scene, STATUS_UNABLE where there is no memory;
+ * STATUS_INTERRUPTED. */
 enum status scene_read(const char *path, struct scene *scene);
 
-/* The same for a scene file's content in memory; path is for the messages and for scene->path. */
+/* The same for a scene file's content in memory; path is for the messages, for scene->path, and for the
+ * folder in which the files with spheres are looked for. */
 enum status scene_read_text(const char *path, const char *text, size_t length, struct scene *scene);
+
+/* The paths of the files with spheres that a scene file's content names, whether they and the rest are right
+ * or not: "path\0path\0", with a 0 behind the last, to be freed by the caller. NULL: none, or no memory. */
+char *scene_list_files(const char *path, const char *text, size_t length);
 
 /* Warns of what a scene may hold and is likely a mistake: transparent bodies whose surfaces cross (the first
  * pair, and how many more there are), and the first quad light that shines away from all matte surfaces. */

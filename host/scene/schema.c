@@ -19,7 +19,7 @@ static bool is_number(const struct yaml_value *value, double *number)
 
 void schema_refuse(struct mapping *mapping, struct fy_node *node, const char *format, ...)
 {
-    char message[512];
+    char message[1024];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);

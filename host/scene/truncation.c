@@ -20,6 +20,9 @@ static const double accuracy = 0x1p-20;
  * of weights lose that much in 1000 bounces. */
 static const double slack = 0x1p-10;
 
+/* Bodies for which other threads pay. */
+static const int least_parallel = 4096;
+
 static struct dvec3 quad_corner(const struct PackedQuadLight *quad, int number)
 {
     return dvec3_corner(dvec3_of_vec4(quad->corner), dvec3_of_vec4(quad->edge_u), dvec3_of_vec4(quad->edge_v),
@@ -75,9 +78,9 @@ static double inverse_square(double distance)
 static double matte_radiance(const struct packed_scene *scene, int index)
 {
     const PackedSurface *surface = body_surface(scene, index);
-    const struct body body = body_packed(scene, index);
     if (surface->tags.SURFACE_KIND != KIND_MATTE)
         return 0;
+    const struct body body = body_packed(scene, index);
     struct dvec3 irradiance = {0, 0, 0};
     for (int i = 0; i < scene->point_light_count; ++i) {
         const struct PackedPointLight *light = &scene->point_lights[i];
@@ -103,6 +106,7 @@ static double matte_radiance(const struct packed_scene *scene, int index)
 static double largest_radiance(const struct packed_scene *scene)
 {
     double radiance = dvec3_largest(dvec3_of_vec4(scene->view.background));
+#pragma omp parallel for reduction(max : radiance) if (body_count(scene) > least_parallel)
     for (int i = 0; i < body_count(scene); ++i)
         radiance = fmax(radiance, matte_radiance(scene, i));
     return radiance * (1 + slack);
@@ -118,11 +122,14 @@ static double rounding(const struct packed_scene *scene, double radiance)
 }
 
 /* The normal of two parallel mirrors that face each other, with w = 1, if every other plane is matte and
- * stands across them; otherwise 0. */
+ * stands across them; otherwise 0. So it is where there are spheres that are not looped over: whether a ray
+ * escapes is found out by trying all spheres, not only those on its way. */
 static layout_vec4 between_mirrors(const struct packed_scene *scene)
 {
     const layout_vec4 none = {0, 0, 0, 0};
     int mirror = 0;
+    if (scene->sphere_count > scene->looped_spheres)
+        return none;
     while (mirror < scene->plane_count && scene->planes[mirror].surface.tags.SURFACE_KIND != KIND_MIRROR)
         ++mirror;
     if (mirror == scene->plane_count)

@@ -102,6 +102,8 @@ static struct look look(const struct inputs *inputs)
     struct look look = {.settling_ms = closed_ms};
     clock_gettime(CLOCK_REALTIME, &look.now);
     look.state.scene = look_at(&look, inputs->scene_path);
+    for (const char *path = inputs->sphere_files; path && *path; path += strlen(path) + 1)
+        look.state.spheres += look_at(&look, path);
     look.state.shader = inputs->shader_broken ? look_at_folder(&look, inputs->shader_path) : 0;
     for (const char *path = inputs->shader_files; path && *path; path += strlen(path) + 1)
         look.state.shader += look_at(&look, path);
@@ -110,7 +112,7 @@ static struct look look(const struct inputs *inputs)
 
 static bool same_state(struct inputs_state a, struct inputs_state b)
 {
-    return a.scene == b.scene && a.shader == b.shader;
+    return a.scene == b.scene && a.spheres == b.spheres && a.shader == b.shader;
 }
 
 bool inputs_take(struct inputs *inputs, double *saved_ms)
@@ -155,6 +157,30 @@ bool inputs_follow(struct inputs *inputs, char **shader_files, bool broken)
     return hold;
 }
 
+/* Whether two lists of paths, each perhaps NULL, are the same. */
+static bool same_paths(const char *a, const char *b)
+{
+    while (a && b && *a && strcmp(a, b) == 0) {
+        a += strlen(a) + 1;
+        b += strlen(b) + 1;
+    }
+    return (!a || !*a) && (!b || !*b);
+}
+
+bool inputs_follow_spheres(struct inputs *inputs, char **sphere_files)
+{
+    bool same = same_paths(inputs->sphere_files, *sphere_files);
+    free(inputs->sphere_files);
+    inputs->sphere_files = *sphere_files;
+    *sphere_files = NULL;
+    if (!same) {
+        inputs->seen = look(inputs).state;
+        inputs->unchanged_since_ms = clock_ms();
+        inputs->taken = (struct inputs_state){0};
+    }
+    return same;
+}
+
 char *inputs_read_scene(const struct inputs *inputs, size_t *length)
 {
     char *text = text_file_read(inputs->scene_path, true, SCENE_MAX_FILE_SIZE, length);
@@ -197,6 +223,7 @@ enum status inputs_create(const char *scene_path, const char *shader_folder, str
 
 void inputs_destroy(struct inputs *inputs)
 {
+    free(inputs->sphere_files);
     free(inputs->shader_files);
     *inputs = (struct inputs){0};
 }

@@ -9,14 +9,15 @@
 
 /* The state of files, as stat() tells it, in a number: another one, other files. */
 struct inputs_state {
-    uint64_t scene, shader;
+    uint64_t scene, spheres, shader;
 };
 
-/* The files that a picture is made of: the scene, and what the shader was compiled from last; as long as that
- * does not compile also what else of *.comp, *.glsl and *.h lies in its folder, for that may be what mends
- * it. */
+/* The files that a picture is made of: the scene, those with spheres that it names, and what the shader was
+ * compiled from last; as long as that does not compile also what else of *.comp, *.glsl and *.h lies in its
+ * folder, for that may be what mends it. */
 struct inputs {
     const char *scene_path; /* the caller's */
+    char *sphere_files;     /* as scene_list_files() has them */
     char shader_path[PATH_MAX];
     char *shader_files; /* as struct compilation has them; NULL: not compiled yet */
     bool shader_broken;
@@ -37,6 +38,10 @@ bool inputs_take(struct inputs *inputs, double *saved_ms);
 
 /* The scene file's text, to be freed by the caller; NULL (reported) where it cannot be read. */
 char *inputs_read_scene(const struct inputs *inputs, size_t *length);
+
+/* Whether the files with spheres that the scene names are those that are followed. If not, they are from now
+ * on, and all files will be taken again when these are whole, too. *sphere_files was the caller's. */
+bool inputs_follow_spheres(struct inputs *inputs, char **sphere_files);
 
 /* Whether the files are still those taken: to be asked when they have been read. If not, what has been read
  * may be half a file, and they will be taken again. */

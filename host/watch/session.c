@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/interrupt.h"
 #include "scene/scene.h"
 
 /* Says that the picture on show is not what the files say. */
@@ -220,7 +221,7 @@ void session_render(struct session *session, double saved_ms)
     const char *what = "scene refused", *details = "see the terminal";
     double compile_ms = 0, pipeline_ms = 0;
     struct picture *picture = prepare(session, 1);
-    enum status status = STATUS_REFUSED;
+    enum status status = interrupt_requested() ? STATUS_INTERRUPTED : STATUS_REFUSED;
     if (picture) {
         what = "compile failed";
         status = compile(session, picture, &compile_ms);
@@ -254,11 +255,15 @@ void session_take(struct session *session, double saved_ms)
 {
     size_t length;
     char *text = inputs_read_scene(&session->inputs, &length);
-    if (!inputs_hold(&session->inputs)) {
+    char *sphere_files = text ? scene_list_files(session->inputs.scene_path, text, length) : NULL;
+    if (!inputs_hold(&session->inputs) || !inputs_follow_spheres(&session->inputs, &sphere_files)) {
         free(text);
+        free(sphere_files);
         return;
     }
-    session->scene_changed = !text || !session->scene_text || strcmp(text, session->scene_text) != 0;
+    session->scene_changed = !text || !session->scene_text || strcmp(text, session->scene_text) != 0 ||
+                             session->spheres_state != session->inputs.taken.spheres;
+    session->spheres_state = session->inputs.taken.spheres;
     free(session->scene_text);
     session->scene_text = text;
     session->scene_length = length;

@@ -27,6 +27,7 @@ struct session {
 
     char *scene_text; /* as taken from the file; NULL: it cannot be read */
     size_t scene_length;
+    uint64_t spheres_state;                  /* of the files with spheres then (see struct inputs_state) */
     bool scene_changed;                      /* and has not been warned of */
     struct scene_camera file_camera, camera; /* the camera counts until the file says another one */
     bool moving;                             /* the camera, so that the window shows a preview */

@@ -167,6 +167,34 @@ written_slowly() {
     not_said 'refused|failed'
 }
 
+# A file with spheres is followed from when the scene names it, whole or not, there or not.
+spheres_from_a_file() {
+    local line='  - { name: Flake, type: spheres, file: rows.npy, material: GreyMatte }'
+    start
+    "$BINARY_DIR/make_spheres" cloud 20 >one.npy
+    "$BINARY_DIR/make_spheres" cloud 21 | sed 's/(21, 4)/(20, 4)/' | head -c $((128 + 16 * 20)) >two.npy
+    printf '\0\0\0\100' | dd of=two.npy bs=1 seek=128 conv=notrunc status=none # x of row 0
+    turn 'scene refused; picture 1 stays' edit "s/^objects:/&\n$line/" s.yaml
+    said 'rows.npy: No such file'
+    turn 'picture 2: ' cp one.npy rows.npy
+    picture_is_rendered_scene
+    turn 'picture 3: same pipeline' cp two.npy rows.npy
+    picture_is_rendered_scene
+    turn 'picture 4: same pipeline' sh -c '(head -c 300 one.npy; sleep 0.4; tail -c +301 one.npy) >rows.npy'
+    picture_is_rendered_scene
+    turn 'scene refused; picture 4 stays' sh -c 'head -c 300 one.npy >rows.npy'
+    said 'rows.npy: is truncated'
+    turn 'picture 5: ' cp two.npy rows.npy
+    picture_is_rendered_scene
+    turn 'picture 6: ' edit '/rows.npy/d' s.yaml
+    before=$(turns)
+    cp one.npy rows.npy
+    sleep 0.5
+    [ "$(turns)" -eq "$before" ] || fail 'a file that no scene names is followed'
+    finish
+    [ "$(grep -c truncated err)" -eq 1 ] || fail 'half a file was read'
+}
+
 # 200 in a row, in all ways: the last one counts, and each picture is one of a whole file.
 quick_saves() {
     local i

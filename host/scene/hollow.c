@@ -1,0 +1,84 @@
+#include "scene/hollow.h"
+
+#include "base/interrupt.h"
+#include "scene/body.h"
+
+enum { LEAST_PARALLEL = 4096 }; /* nodes of the hierarchy for which other threads pay */
+
+/* A body whose surface is looked for in a sphere. */
+struct search {
+    const struct packed_scene *packed;
+    struct body holder;
+    int sphere; /* its number */
+    bool found;
+};
+
+static bool look_at(struct search *search, int i)
+{
+    search->found = i != search->sphere && body_reaches_into(body_packed(search->packed, i), search->holder);
+    return !search->found;
+}
+
+static bool look_at_sphere(void *search, uint32_t sphere)
+{
+    return look_at(search, (int)sphere);
+}
+
+static bool another_reaches_in(struct search *search)
+{
+    const struct packed_scene *packed = search->packed;
+    for (int i = 0; i < packed->looped_spheres; ++i)
+        if (!look_at(search, i))
+            return true;
+    for (int i = packed->sphere_count; i < body_count(packed); ++i)
+        if (!look_at(search, i))
+            return true;
+    if (packed->hierarchy)
+        hierarchy_visit(packed->hierarchy, body_box(search->holder), look_at_sphere, search);
+    return search->found;
+}
+
+/* Whether a ray or a shading point can lie within the sphere other than on it: the camera is in it, or it is
+ * transparent and another surface reaches in. */
+static bool holds_rays(const struct packed_scene *packed, int sphere)
+{
+    struct search search = {.packed = packed, .holder = body_packed(packed, sphere), .sphere = sphere};
+    if (body_distance(search.holder, dvec3_of_vec4(packed->view.position)) < 0)
+        return true;
+    return body_surface(packed, sphere)->tags.SURFACE_KIND == KIND_TRANSPARENT && another_reaches_in(&search);
+}
+
+/* Whether some point of a light may lie within the sphere; for quads, of the ball around them. */
+static bool holds_lights(const struct packed_scene *packed, int sphere)
+{
+    const struct body holder = body_packed(packed, sphere);
+    bool holds = false;
+    for (int i = 0; i < packed->point_light_count; ++i)
+        holds |= body_distance(holder, dvec3_of_vec4(packed->point_lights[i].position)) < 0;
+    for (int i = 0; i < packed->quad_light_count; ++i) {
+        const struct PackedQuadLight *quad = &packed->quad_lights[i];
+        struct dvec3 u = dvec3_of_vec4(quad->edge_u), v = dvec3_of_vec4(quad->edge_v);
+        struct dvec3 middle = dvec3_add(dvec3_of_vec4(quad->corner), dvec3_scale(0.5, dvec3_add(u, v)));
+        holds |= body_distance(holder, middle) < (dvec3_length(u) + dvec3_length(v)) / 2;
+    }
+    return holds;
+}
+
+static void pack_tags(struct packed_scene *packed, int sphere)
+{
+    packed->spheres[sphere].tags.HOLDS_RAYS = holds_rays(packed, sphere);
+    packed->spheres[sphere].tags.HOLDS_LIGHTS = holds_lights(packed, sphere);
+}
+
+/* In the order of the hierarchy, so that those one after the other ask for the same of its nodes. */
+enum status hollow_pack(struct packed_scene *packed)
+{
+    const struct hierarchy *others = packed->hierarchy;
+    for (int i = 0; i < packed->looped_spheres; ++i)
+        pack_tags(packed, i);
+#pragma omp parallel for schedule(dynamic, 1024) if (others && others->node_count > LEAST_PARALLEL)
+    for (uint32_t i = 0; i < (others ? others->node_count : 0); ++i)
+        if (others->nodes[i].left == 0 && !interrupt_requested())
+            pack_tags(packed, (int)others->nodes[i].sphere);
+    return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_DONE;
+}

@@ -1,0 +1,92 @@
+#include "scene/looped.h"
+
+#include "scene/body.h"
+
+struct candidate {
+    struct body body;
+    size_t sphere;
+};
+
+/* The largest spheres, the largest first; of equally large ones the first of the file. */
+struct largest {
+    size_t count;
+    struct candidate candidates[MOST_GIANTS];
+};
+
+static void consider(struct largest *largest, struct body body, size_t sphere)
+{
+    size_t place = largest->count;
+    while (place > 0 && body.number > largest->candidates[place - 1].body.number)
+        --place;
+    if (place == MOST_GIANTS)
+        return;
+    if (largest->count < MOST_GIANTS)
+        ++largest->count;
+    for (size_t i = largest->count - 1; i > place; --i)
+        largest->candidates[i] = largest->candidates[i - 1];
+    largest->candidates[place] = (struct candidate){body, sphere};
+}
+
+static size_t find_largest(const struct scene *scene, struct largest *largest)
+{
+    size_t sphere = 0;
+    for (size_t i = 0; i < scene->object_count; ++i)
+        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row)
+            if (scene->objects[i].type != OBJECT_PLANE)
+                consider(largest, body_of(&scene->objects[i], row), sphere++);
+    return sphere;
+}
+
+static bool is_among(const struct largest *largest, size_t sphere)
+{
+    bool among = false;
+    for (size_t i = 0; i < largest->count; ++i)
+        among |= largest->candidates[i].sphere == sphere;
+    return among;
+}
+
+struct extent {
+    struct dvec3 lo, hi;
+};
+
+static void include(struct extent *extent, struct body ball)
+{
+    const struct dvec3 center = ball.vector;
+    const double radius = ball.number;
+    extent->lo.x = fmin(extent->lo.x, center.x - radius);
+    extent->lo.y = fmin(extent->lo.y, center.y - radius);
+    extent->lo.z = fmin(extent->lo.z, center.z - radius);
+    extent->hi.x = fmax(extent->hi.x, center.x + radius);
+    extent->hi.y = fmax(extent->hi.y, center.y + radius);
+    extent->hi.z = fmax(extent->hi.z, center.z + radius);
+}
+
+static struct extent extent_without(const struct scene *scene, const struct largest *largest)
+{
+    struct extent extent = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    size_t sphere = 0;
+    for (size_t i = 0; i < scene->object_count; ++i)
+        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row)
+            if (scene->objects[i].type != OBJECT_PLANE && !is_among(largest, sphere++))
+                include(&extent, body_of(&scene->objects[i], row));
+    return extent;
+}
+
+struct looped looped_choose(const struct scene *scene)
+{
+    struct largest largest = {.count = 0};
+    struct looped looped = {.sphere_count = find_largest(scene, &largest)};
+    if (looped.sphere_count <= MOST_LOOPED)
+        return looped;
+    struct extent extent = extent_without(scene, &largest);
+    looped.giant_count = MOST_GIANTS;
+    for (; looped.giant_count > 0; --looped.giant_count) { /* the smallest first: if it is one, all are */
+        const struct body body = largest.candidates[looped.giant_count - 1].body;
+        if (2 * body.number > dvec3_largest(dvec3_subtract(extent.hi, extent.lo)) / 2)
+            break;
+        include(&extent, body);
+    }
+    for (size_t i = 0; i < looped.giant_count; ++i)
+        looped.giants[i] = largest.candidates[i].sphere;
+    return looped;
+}

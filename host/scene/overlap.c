@@ -1,0 +1,191 @@
+#include "scene/overlap.h"
+
+#include <stdlib.h>
+
+#include "base/interrupt.h"
+#include "scene/body.h"
+#include "scene/pack.h"
+
+enum { FIRST_BLOCK = 64, MOST_IN_BLOCK = 1 << 16, LEAST_PARALLEL = 4096 }; /* bodies */
+
+/* A transparent object, and the number of its first body among all transparent ones, in the file's order. */
+struct part {
+    const struct scene_object *object;
+    size_t first;
+};
+
+struct search {
+    double scale; /* from metres to scene units */
+    size_t part_count, body_count, sphere_count, plane_count;
+    struct part *parts;
+    size_t *planes;               /* their numbers */
+    struct PackedSphere *spheres; /* a little larger than they are; FILE_ORDER: their numbers */
+    struct hierarchy hierarchy;
+};
+
+/* A body that is compared with those before it. */
+struct query {
+    const struct search *search;
+    size_t number;
+    struct body body;
+    size_t most, pairs; /* when to stop; so far */
+    size_t first;       /* of the bodies that it overlaps */
+};
+
+/* Whether the surfaces of two bodies cross, or coincide with both bodies on the same side. */
+static bool overlap(struct body a, struct body b)
+{
+    if (!a.is_ball && !b.is_ball)
+        return dvec3_length(dvec3_cross(a.vector, b.vector)) > RESOLUTION ||
+               (dvec3_dot(a.vector, b.vector) > 0 &&
+                fabs(a.number - b.number) <= RESOLUTION * fabs(b.number));
+    bool a_is_smaller = a.is_ball && (!b.is_ball || a.number <= b.number);
+    struct body ball = a_is_smaller ? a : b, other = a_is_smaller ? b : a;
+    double touching = RESOLUTION * (dvec3_length(ball.vector) + ball.number);
+    bool coincide = other.is_ball && other.number - ball.number <= touching &&
+                    dvec3_distance(other.vector, ball.vector) <= touching;
+    return coincide || body_reaches_into(other, ball);
+}
+
+static struct scene_body find_body(const struct search *search, size_t number)
+{
+    size_t part = 0, behind = search->part_count;
+    while (behind - part > 1) {
+        size_t middle = part + (behind - part) / 2;
+        if (search->parts[middle].first <= number)
+            part = middle;
+        else
+            behind = middle;
+    }
+    return (struct scene_body){search->parts[part].object, number - search->parts[part].first};
+}
+
+static struct body get_body(const struct search *search, size_t number)
+{
+    const struct scene_body found = find_body(search, number);
+    return body_of(found.object, found.row);
+}
+
+static bool compare(struct query *query, size_t number)
+{
+    if (number < query->number && overlap(get_body(query->search, number), query->body)) {
+        query->first = query->pairs == 0 || number < query->first ? number : query->first;
+        ++query->pairs;
+    }
+    return query->pairs < query->most;
+}
+
+static bool compare_sphere(void *query, uint32_t sphere)
+{
+    const struct search *search = ((struct query *)query)->search;
+    return compare(query, (size_t)search->spheres[sphere].tags.FILE_ORDER);
+}
+
+/* The ball in scene units, larger than it is by more than float may take away. */
+static layout_vec4 enlarged(const struct search *search, struct body ball)
+{
+    const struct dvec3 center = dvec3_scale(search->scale, ball.vector);
+    const double radius = search->scale * ball.number;
+    return (layout_vec4){(float)center.x, (float)center.y, (float)center.z,
+                         (float)(radius + 0x1p-22 * (dvec3_largest(center) + radius))};
+}
+
+/* Finds up to `most` bodies before this one that it overlaps. */
+static struct query find_partners(const struct search *search, size_t number, size_t most)
+{
+    struct query query = {.search = search, .number = number, .body = get_body(search, number), .most = most};
+    bool more = true;
+    for (size_t i = 0; i < search->plane_count && more; ++i)
+        more = compare(&query, search->planes[i]);
+    if (!query.body.is_ball) {
+        for (size_t i = 0; i < search->sphere_count && more; ++i)
+            more = compare_sphere(&query, (uint32_t)i);
+    } else if (more && search->hierarchy.node_count > 0) {
+        const layout_vec4 ball = enlarged(search, query.body);
+        hierarchy_visit(&search->hierarchy,
+                        body_box((struct body){true, dvec3_of_vec4(ball), (double)ball.w}), compare_sphere,
+                        &query);
+    }
+    return query;
+}
+
+/* Block after block, so that the first pair is known when there are enough. */
+static void find_pairs(const struct search *search, struct overlaps *overlaps)
+{
+    size_t pairs = 0, later = SIZE_MAX;
+    for (size_t first = 0, size = FIRST_BLOCK, end;
+         first < search->body_count && pairs < OVERLAP_MOST_PAIRS && !interrupt_requested();
+         first = end, size = size < MOST_IN_BLOCK ? 2 * size : size) {
+        end = search->body_count - first < size ? search->body_count : first + size;
+#pragma omp parallel for reduction(+ : pairs) reduction(min : later) schedule(dynamic, 16)                           \
+    if (search->body_count > LEAST_PARALLEL)
+        for (size_t i = first; i < end; ++i) {
+            if (interrupt_requested())
+                continue;
+            size_t found = find_partners(search, i, OVERLAP_MOST_PAIRS).pairs;
+            pairs += found;
+            later = found > 0 && i < later ? i : later;
+        }
+    }
+    if (pairs == 0)
+        return;
+    overlaps->pairs = pairs < OVERLAP_MOST_PAIRS ? pairs : OVERLAP_MOST_PAIRS;
+    overlaps->later = find_body(search, later);
+    overlaps->earlier = find_body(search, find_partners(search, later, SIZE_MAX).first);
+}
+
+static bool is_transparent(const struct scene *scene, const struct scene_object *object)
+{
+    return scene->materials[object->material].type == MATERIAL_TRANSPARENT && object_body_count(object) > 0;
+}
+
+static void collect(const struct scene *scene, struct search *search)
+{
+    size_t parts = 0, number = 0, spheres = 0, planes = 0;
+    for (const struct scene_object *object = scene->objects; object < scene->objects + scene->object_count;
+         ++object) {
+        if (!is_transparent(scene, object))
+            continue;
+        search->parts[parts++] = (struct part){object, number};
+        for (size_t row = 0; row < object_body_count(object); ++row, ++number)
+            if (object->type == OBJECT_PLANE)
+                search->planes[planes++] = number;
+            else
+                search->spheres[spheres++] = (struct PackedSphere){enlarged(search, body_of(object, row)),
+                                                                   {.FILE_ORDER = (int)number}};
+    }
+}
+
+enum status overlaps_find(const struct scene *scene, struct overlaps *overlaps)
+{
+    struct search search = {.scale = pack_scale(scene)};
+    *overlaps = (struct overlaps){.pairs = 0};
+    for (size_t i = 0; i < scene->object_count; ++i) {
+        const bool counts = is_transparent(scene, &scene->objects[i]);
+        const size_t bodies = counts ? object_body_count(&scene->objects[i]) : 0;
+        search.part_count += counts;
+        search.body_count += bodies;
+        search.plane_count += counts && scene->objects[i].type == OBJECT_PLANE;
+    }
+    search.sphere_count = search.body_count - search.plane_count;
+    if (search.body_count < 2)
+        return STATUS_DONE;
+    search.parts = calloc(search.part_count, sizeof *search.parts);
+    search.planes = calloc(search.plane_count + 1, sizeof *search.planes);
+    search.spheres = calloc(search.sphere_count + 1, sizeof *search.spheres);
+    enum status status = STATUS_UNABLE;
+    if (search.parts && search.planes && search.spheres) {
+        collect(scene, &search);
+        status = search.sphere_count == 0
+                     ? STATUS_DONE
+                     : hierarchy_build(search.spheres, 0, (uint32_t)search.sphere_count, &search.hierarchy);
+    } else
+        log_error("%s: no memory to compare %zu transparent bodies", scene->path, search.body_count);
+    if (status == STATUS_DONE)
+        find_pairs(&search, overlaps);
+    hierarchy_destroy(&search.hierarchy);
+    free(search.parts);
+    free(search.planes);
+    free(search.spheres);
+    return status == STATUS_DONE && interrupt_requested() ? STATUS_INTERRUPTED : status;
+}

@@ -1,0 +1,82 @@
+#include "scene/spheres_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The path of a file that a scene file names, allocated; NULL without memory. */
+static char *resolve(const char *scene_path, const char *name)
+{
+    const char *slash = strrchr(scene_path, '/');
+    int folder = name[0] == '/' || !slash ? 0 : (int)(slash + 1 - scene_path);
+    char *path;
+    return asprintf(&path, "%.*s%s", folder, scene_path, name) < 0 ? NULL : path;
+}
+
+void spheres_file_read(struct mapping *mapping, const struct npy_column columns[NPY_COLUMNS], size_t most,
+                       struct scene_object *object)
+{
+    const struct yaml_value value = schema_find(mapping, "file");
+    char *name = NULL, message[NPY_MESSAGE];
+    if (!value.written)
+        return;
+    read_name(mapping, &(struct field){.name = "file"}, &value, &name);
+    char *path = name ? resolve(mapping->report->path, name) : NULL;
+    mapping->report->no_memory |= name && !path;
+    enum status status =
+        path ? npy_read(path, columns, most, &object->spheres.rows, &object->spheres.count, message)
+             : STATUS_DONE;
+    if (status == STATUS_REFUSED || status == STATUS_UNABLE)
+        schema_refuse(mapping, value.written, "%s: %s", name, message);
+    mapping->report->no_memory |= status == STATUS_UNABLE;
+    mapping->report->interrupted |= status == STATUS_INTERRUPTED;
+    free(name);
+    free(path);
+}
+
+/* Adds the path to the list of that length. */
+static char *add_path(char *list, size_t *length, const char *path)
+{
+    size_t size = strlen(path) + 1;
+    char *longer = realloc(list, *length + size + 1);
+    if (!longer) {
+        free(list);
+        *length = 0;
+        return NULL;
+    }
+    memcpy(longer + *length, path, size);
+    *length += size;
+    longer[*length] = 0;
+    return longer;
+}
+
+static struct yaml_value find(struct diagnostics *report, const struct yaml_value *value, const char *key)
+{
+    return schema_find(&(struct mapping){.report = report, .value = *value}, key);
+}
+
+char *scene_list_files(const char *path, const char *text, size_t length)
+{
+    struct diagnostics report = {.path = path, .text = text, .length = length};
+    struct fy_document *document = yaml_load(&report);
+    char *list = NULL;
+    size_t list_length = 0;
+    if (document) {
+        const struct yaml_value root = yaml_read(&report, fy_document_root(document), NULL);
+        const struct yaml_value objects = find(&report, &root, "objects");
+        struct fy_node *item;
+        for (void *at = NULL; (item = fy_node_sequence_iterate(objects.node, &at));) {
+            const struct yaml_value object = yaml_read(&report, item, NULL);
+            const struct yaml_value file = find(&report, &object, "file");
+            char *found = file.type == FYNT_SCALAR && file.length > 0 && file.length < YAML_TEXT_SIZE
+                              ? resolve(path, file.text)
+                              : NULL;
+            if (found)
+                list = add_path(list, &list_length, found);
+            free(found);
+        }
+    }
+    fy_document_destroy(document);
+    report_discard(&report);
+    return list;
+}

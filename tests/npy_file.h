@@ -1,0 +1,44 @@
+#ifndef VKWHITTED_TEST_NPY_FILE_H
+#define VKWHITTED_TEST_NPY_FILE_H
+
+/* NumPy files as numpy.save() writes them, and wrong ones. Include after cmocka.h. */
+
+#include <stdio.h>
+#include <string.h>
+
+/* Writes what stands before an array: the header of that dictionary, filled up with spaces to 64 bytes as
+ * NumPy does. */
+static void npy_write_header(FILE *file, int version, const char *dictionary)
+{
+    const size_t before = version == 1 ? 10 : 12, size = before + strlen(dictionary) + 1;
+    const size_t padding = (64 - size % 64) % 64, length = size - before + padding;
+    const unsigned char start[] = {0x93,
+                                   'N',
+                                   'U',
+                                   'M',
+                                   'P',
+                                   'Y',
+                                   (unsigned char)version,
+                                   0,
+                                   (unsigned char)length,
+                                   (unsigned char)(length >> 8),
+                                   0,
+                                   0};
+    assert_int_equal(fwrite(start, 1, before, file), before);
+    fprintf(file, "%s%*s\n", dictionary, (int)padding, "");
+}
+
+/* float32 in this machine's byte order, which is little endian. */
+static void npy_write(const char *path, size_t count, float (*rows)[4])
+{
+    char dictionary[128];
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    snprintf(dictionary, sizeof dictionary, "{'descr': '<f4', 'fortran_order': False, 'shape': (%zu, 4), }",
+             count);
+    npy_write_header(file, 1, dictionary);
+    assert_int_equal(fwrite(rows, sizeof *rows, count, file), count);
+    assert_int_equal(fclose(file), 0);
+}
+
+#endif
