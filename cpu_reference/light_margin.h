@@ -153,8 +153,10 @@ static inline struct tracked track_receive(const struct packed_scene *scene, con
     double error = (e_factor + factor * (2 * e_way / distance + rounding(2))) * falloff;
     struct segment segment = {hit->point, light, direction, (real)distance, hit->surface, hit->from_inside};
     struct conjunction lit = conjunction_begin();
-    bool hides;
-    double shadow = shadow_margin(scene, &segment, hit_error.point, *e_to_light, &hides);
+    bool hides = false;
+    double shadow = 0;
+    if (*margin != 0 || RECORDS) /* it cannot fall below */
+        shadow = shadow_margin(scene, &segment, hit_error.point, *e_to_light, &hides);
     require_positive(&lit, cos_in, e_cos_in);
     require_positive(&lit, hides ? -shadow : shadow, 1);
     if (quad) {
