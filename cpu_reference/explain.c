@@ -95,13 +95,13 @@ static void trace_dielectric(struct pixel *pixel, const struct tracked_path *pat
     trace_secondary(pixel, &reflected);
 }
 
-/* Margin of what the path's ray hits. No lower than 0, it need not be looked for where the pixel's is 0:
- * among many spheres, a ray of which float knows little may come near most of them. */
+/* Margin of what the path's ray hits; where the pixel's is lower already, and not all is told, no matter
+ * what: among many spheres, a ray of which float knows little comes near most of them. */
 static double margin_of_hit(const struct pixel *pixel, const struct tracked_path *path, const struct hit *hit)
 {
     if (pixel->margin == 0 && !RECORDS)
         return 0;
-    return hit_margin(pixel->scene, &path->ray, path->error, hit);
+    return hit_margin(pixel->scene, &path->ray, path->error, hit, RECORDS ? 1 : smaller(pixel->margin, 1));
 }
 
 static void trace(struct pixel *pixel, const struct tracked_path *path)
