@@ -5,6 +5,8 @@
 
 #ifdef REFERENCE_RECORD
 
+enum { RECORDS = 1 }; /* all is told */
+
 #include "geometry.h"
 #include "reference_events.h"
 
@@ -133,6 +135,8 @@ static inline int find_blocker(const struct packed_scene *scene, const struct se
                       event_light.margin)
 
 #else
+
+enum { RECORDS = 0 };
 
 #define RECORD(kind, facts, first, second, third)
 #define RECORD_BOUNDS(first, second, third, margin)

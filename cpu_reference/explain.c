@@ -95,6 +95,15 @@ static void trace_dielectric(struct pixel *pixel, const struct tracked_path *pat
     trace_secondary(pixel, &reflected);
 }
 
+/* Margin of what the path's ray hits; where the pixel's is lower already, and not all is told, no matter
+ * what: among many spheres, a ray of which float knows little comes near most of them. */
+static double margin_of_hit(const struct pixel *pixel, const struct tracked_path *path, const struct hit *hit)
+{
+    if (pixel->margin == 0 && !RECORDS)
+        return 0;
+    return hit_margin(pixel->scene, &path->ray, path->error, hit, RECORDS ? 1 : smaller(pixel->margin, 1));
+}
+
 static void trace(struct pixel *pixel, const struct tracked_path *path)
 {
     const struct packed_scene *scene = pixel->scene;
@@ -104,7 +113,9 @@ static void trace(struct pixel *pixel, const struct tracked_path *path)
     RECORD_BOUNDS(each(path->error.origin), each(path->error.direction), path->e_weight, INFINITY);
     bool met = find_hit(scene, ray, &hit);
     note(&pixel->tally, (uint32_t)(hit.surface + 1) * 2 + hit.from_inside);
-    double margin = hit_margin(scene, ray, path->error, &hit);
+    if (path->error.direction > 0.5)
+        pixel->margin = 0; /* float knows no direction here */
+    double margin = margin_of_hit(pixel, path, &hit);
     pixel->margin = smaller(pixel->margin, margin);
     RECORD_HIT(&hit);
     RECORD_BOUNDS(each(0), each(0), 0, margin);
@@ -115,8 +126,8 @@ static void trace(struct pixel *pixel, const struct tracked_path *path)
     struct hit_error hit_error = track_hit(scene, ray, path->error, &hit);
     RECORD_BOUNDS(each(hit_error.normal), each(hit_error.point),
                   distance_error(scene, ray, hit.surface, (double)hit.distance, path->error), margin);
-    if (hit_error.normal > 0.5 || path->error.direction > 0.5)
-        pixel->margin = 0; /* float knows no direction here */
+    if (hit_error.normal > 0.5)
+        pixel->margin = 0;
     if (hit.material->tags.SURFACE_KIND == KIND_MATTE) {
         gather_matte(pixel, path, &hit, hit_error);
         return;

@@ -80,30 +80,46 @@ static inline void add_sphere(const struct packed_scene *scene, int i, const str
     add_blocker(shadow, blocks, margin);
 }
 
+/* As tree_line_in_float(). */
+static inline struct tree_line tree_segment_in_float(const struct segment *segment, double e_from,
+                                                     double e_direction, double wanted)
+{
+    struct tree_line line = tree_line_in_float(segment->from, segment->direction,
+                                               (struct ray_error){e_from, e_direction}, wanted);
+    line.has_end = true;
+    line.end = to_tree_vector(segment->to);
+    line.e_end = tree_rounding(segment->to) + wanted * rounding(length(segment->to));
+    return line;
+}
+
+/* Those that the tree does not rule out, which looks ever closer as smaller margins are found. */
 static inline void add_tree_spheres(const struct packed_scene *scene, const struct segment *segment,
-                                    double e_from, double e_direction, struct shadow *shadow)
+                                    double e_from, double e_direction, double wanted, struct shadow *shadow)
 {
     if (is_in_tree(scene, segment->surface))
         add_sphere(scene, segment->surface, segment, e_from, e_direction, shadow);
-    struct tree_line line =
-        tree_line_in_float(segment->from, segment->direction, (struct ray_error){e_from, e_direction});
-    line.has_end = true;
-    line.end = to_tree_vector(segment->to);
-    line.e_end = tree_rounding(segment->to) + rounding(length(segment->to));
+    wanted = smaller(shadow->weakest, wanted);
+    const struct tree_line line = tree_segment_in_float(segment, e_from, e_direction, wanted);
     struct sphere_walk walk = sphere_walk_begin(scene->tree, &line, (double)segment->length);
-    for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
+    for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;) {
         add_sphere(scene, i, segment, e_from, e_direction, shadow);
+        if (shadow->weakest < wanted) {
+            wanted = shadow->weakest;
+            walk.line = tree_segment_in_float(segment, e_from, e_direction, wanted);
+        }
+    }
 }
 
-/* Margin of the light point's being hidden; *hides gets whether it is. */
+/* Margin of the light point's being hidden; *hides gets whether it is. Where it is not and the margin is at
+ * least `wanted`, which is at most 1, any such number. */
 static inline double shadow_margin(const struct packed_scene *scene, const struct segment *segment,
-                                   double e_from, double e_direction, bool *hides)
+                                   double e_from, double e_direction, double wanted, bool *hides)
 {
     struct shadow shadow = {.weakest = INFINITY};
     for (int i = 0; i < tried_spheres(scene); ++i)
         add_sphere(scene, i, segment, e_from, e_direction, &shadow);
     if (scene->tree)
-        add_tree_spheres(scene, segment, e_from, e_direction, &shadow);
+        add_tree_spheres(scene, segment, e_from, e_direction, wanted, &shadow);
     for (int i = 0; i < scene->plane_count; ++i) {
         bool blocks;
         double margin =
@@ -153,8 +169,11 @@ static inline struct tracked track_receive(const struct packed_scene *scene, con
     double error = (e_factor + factor * (2 * e_way / distance + rounding(2))) * falloff;
     struct segment segment = {hit->point, light, direction, (real)distance, hit->surface, hit->from_inside};
     struct conjunction lit = conjunction_begin();
-    bool hides;
-    double shadow = shadow_margin(scene, &segment, hit_error.point, *e_to_light, &hides);
+    bool hides = false;
+    double shadow = 0;
+    if (*margin != 0 || RECORDS) /* it cannot fall below */
+        shadow = shadow_margin(scene, &segment, hit_error.point, *e_to_light,
+                               RECORDS ? 1 : smaller(*margin, 1), &hides);
     require_positive(&lit, cos_in, e_cos_in);
     require_positive(&lit, hides ? -shadow : shadow, 1);
     if (quad) {

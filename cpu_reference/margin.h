@@ -178,14 +178,17 @@ static inline double plane_margin(const struct packed_scene *scene, int i, const
     return conjunction_margin(&met);
 }
 
-/* As tree_line(), of what the tracer in float makes of the line. */
+/* As tree_line(), of what float makes of the line: the tree rules out what has a margin of `wanted` at least,
+ * which is at most 1. */
 static inline struct tree_line tree_line_in_float(struct vec3 origin, struct vec3 direction,
-                                                  struct ray_error error)
+                                                  struct ray_error error, double wanted)
 {
     struct tree_line line = tree_line(origin, direction);
-    line.e_origin += error.origin;
-    line.e_direction += error.direction;
-    line.unit = unit_roundoff;
+    if (!(wanted > 0)) /* however large the errors are */
+        return line;
+    line.e_origin += wanted * error.origin;
+    line.e_direction += wanted * error.direction;
+    line.unit += wanted * unit_roundoff;
     return line;
 }
 
@@ -199,22 +202,28 @@ static inline double choice_margin(const struct packed_scene *scene, int i, cons
     return sphere_margin(scene, i, ray, error, distance, e_distance);
 }
 
-/* The least of those that the tree does not rule out: others' margin is 1 at least. */
+/* The least of those that the tree does not rule out, which looks ever closer as smaller ones are found. */
 static inline double tree_margin(const struct packed_scene *scene, const struct ray *ray,
                                  struct ray_error error, const struct hit *hit, double distance,
-                                 double e_distance)
+                                 double e_distance, double wanted)
 {
-    const struct tree_line line = tree_line_in_float(ray->origin, ray->direction, error);
+    const struct tree_line line = tree_line_in_float(ray->origin, ray->direction, error, wanted);
     struct sphere_walk walk = sphere_walk_begin(scene->tree, &line, distance + e_distance);
     double margin = INFINITY;
-    for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
+    for (int i; margin != 0 && (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;) {
         margin = smaller(margin, choice_margin(scene, i, ray, error, hit, distance, e_distance));
+        if (margin < wanted) {
+            wanted = margin;
+            walk.line = tree_line_in_float(ray->origin, ray->direction, error, wanted);
+        }
+    }
     return margin;
 }
 
-/* Margin of the choice of the nearest hit (or of none). */
+/* Margin of the choice of the nearest hit (or of none). Where it is at least `wanted`, which is at most 1,
+ * any such number. */
 static inline double hit_margin(const struct packed_scene *scene, const struct ray *ray,
-                                struct ray_error error, const struct hit *hit)
+                                struct ray_error error, const struct hit *hit, double wanted)
 {
     bool none = hit->surface == NO_SURFACE;
     double distance = none ? FARTHEST_HIT : (double)hit->distance;
@@ -223,7 +232,8 @@ static inline double hit_margin(const struct packed_scene *scene, const struct r
     for (int i = 0; i < tried_spheres(scene); ++i)
         margin = smaller(margin, choice_margin(scene, i, ray, error, hit, distance, e_distance));
     if (scene->tree)
-        margin = smaller(margin, tree_margin(scene, ray, error, hit, distance, e_distance));
+        margin = smaller(margin,
+                         tree_margin(scene, ray, error, hit, distance, e_distance, smaller(margin, wanted)));
     for (int i = 0; i < scene->plane_count; ++i) {
         bool nearest = scene->sphere_count + i == hit->surface;
         margin = smaller(margin, plane_margin(scene, i, ray, error, nearest ? FARTHEST_HIT : distance,

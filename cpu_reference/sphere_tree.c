@@ -275,15 +275,14 @@ static bool find_leaf(struct sphere_walk *walk)
             walk->last = end_place(tree, (struct node){node, tree->depth});
             return true;
         }
-        double left_entry, right_entry;
-        bool left = may_meet(walk, 2 * node, &left_entry), right = may_meet(walk, 2 * node + 1, &right_entry);
-        bool left_first = left_entry < right_entry;
-        if (left && left_first && right)
-            push(walk, 2 * node + 1, right_entry);
-        if (left)
-            push(walk, 2 * node, left_entry);
-        if (right && !(left && left_first))
-            push(walk, 2 * node + 1, right_entry);
+        double entries[2];
+        const bool met[2] = {may_meet(walk, 2 * node, &entries[0]),
+                             may_meet(walk, 2 * node + 1, &entries[1])};
+        const uint32_t farther = entries[0] < entries[1];
+        if (met[farther])
+            push(walk, 2 * node + farther, entries[farther]);
+        if (met[1 - farther])
+            push(walk, 2 * node + 1 - farther, entries[1 - farther]);
     }
     return false;
 }

@@ -34,9 +34,9 @@ enum { NO_MORE_SPHERES = -1, DEEPEST_SPHERE_TREE = 32 };
 
 /* A walk through the tree, nearer balls first. */
 struct sphere_walk {
-    double limit; /* on the distance to where a sphere is met; the caller may lower it */
+    double limit;          /* on the distance to where a sphere is met */
+    struct tree_line line; /* the caller may lower the limit, and the errors and the unit in here */
     const struct sphere_tree *tree;
-    struct tree_line line;
     double stretch, inverse_squared; /* of the direction's length */
     struct {
         uint32_t node;

@@ -13,6 +13,7 @@
 
 #include "pixel/ray_tree.h"
 #include "test_render.h"
+#include "tracer/reference_scene.h"
 
 enum { WIDTH = 36, HEIGHT = 24, PIXELS = WIDTH * HEIGHT, CLOUD = 1500 };
 static const struct reference_window whole = {0, 0, WIDTH, HEIGHT};
@@ -154,8 +155,70 @@ static void clouds(void **state)
         check_scene(names[i], test_read(names[i]), make_cloud);
 }
 
+/* The linker has the libraries under test call these instead of calloc and malloc. The call that is so many
+ * calls away fails. */
+static int calls_to_failure = -1;
+void *__real_calloc(size_t count, size_t size);
+void *__real_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_malloc(size_t size);
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    return calls_to_failure-- == 0 ? NULL : __real_calloc(count, size);
+}
+
+void *__wrap_malloc(size_t size)
+{
+    return calls_to_failure-- == 0 ? NULL : __real_malloc(size);
+}
+
+/* Each of the tree's allocations fails once. */
+static void without_memory(void **state)
+{
+    struct scene scene = test_read("scenes/figure_4.yaml");
+    struct packed_scene packed = pack(&scene);
+    struct reference_scene reference;
+    enum status status = STATUS_UNABLE;
+    int failures = 0;
+    (void)state;
+    for (; status != STATUS_DONE; ++failures) {
+        calls_to_failure = failures;
+        status = reference_scene_create(&packed, 1, &reference);
+        bool failed = calls_to_failure < 0;
+        calls_to_failure = -1;
+        assert_int_equal(status, failed ? STATUS_UNABLE : STATUS_DONE);
+        assert_true(failed == !reference.built && reference.packed.tree == reference.built);
+    }
+    assert_true(failures > 1);
+    reference_scene_destroy(&reference);
+    pack_destroy(&packed);
+    scene_destroy(&scene);
+}
+
+/* There is none of spheres that are looped over, and one that is there is used. */
+static void tree_where_needed(void **state)
+{
+    struct scene scene = test_read("scenes/figure_4.yaml");
+    struct packed_scene packed = pack(&scene);
+    struct reference_scene first, second;
+    (void)state;
+    assert_int_equal(reference_scene_create(&packed, 1, &first), STATUS_DONE);
+    assert_int_equal(reference_scene_create(&first.packed, 1, &second), STATUS_DONE);
+    assert_true(first.built && !second.built && second.packed.tree == first.built);
+    reference_scene_destroy(&second);
+    reference_scene_destroy(&first);
+    packed.looped_spheres = packed.sphere_count;
+    assert_int_equal(reference_scene_create(&packed, 1, &first), STATUS_DONE);
+    assert_true(!first.built && !first.packed.tree);
+    reference_scene_destroy(&first);
+    pack_destroy(&packed);
+    scene_destroy(&scene);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(shipped_scenes), cmocka_unit_test(clouds)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(shipped_scenes), cmocka_unit_test(clouds),
+                                       cmocka_unit_test(without_memory), cmocka_unit_test(tree_where_needed)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,10 +29,12 @@ static struct dvec3 place_center(struct random *random, unsigned pattern, double
 {
     static const struct dvec3 along = {0.6, 0, 0.8};
     const struct dvec3 last = first ? (struct dvec3){0, 0, 0} : center_of(before);
+    struct dvec3 center;
     switch (first ? 0 : pattern) {
     case 1: /* in one plane */
-        return (struct dvec3){random_between(random, -size, size), last.y,
-                              random_between(random, -size, size)};
+        center = random_near(random, last, size);
+        center.y = last.y;
+        return center;
     case 2: /* on one line */
         return dvec3_along(last, random_between(random, -size, size), along);
     case 3: /* around one point */
@@ -162,8 +164,7 @@ struct ray hostile_ray(struct random *random, const struct hostile_scene *scene)
     case 6:
         break;
     default: /* grazes */
-        origin = dvec3_along(origin, grazing_distance(random, scene, radius, way),
-                             random_tangent(random, direction));
+        origin = random_aside(random, direction, origin, grazing_distance(random, scene, radius, way));
     }
     ray.origin = to_real(origin);
     ray.direction = to_real(direction);
