@@ -37,7 +37,7 @@ layout(set = 0, binding = 6, r32ui) uniform readonly uimageBuffer words;
 layout(std430, set = 0, binding = 7) readonly buffer SurfaceBlock { PackedSurface surfaces[]; };
 
 // Boxes are enlarged by this, times the sum of the largest coordinates of the ray's origin and of all boxes: 32 units in
-// the last place; the errors of the box test and of a computed hit are at most 27 of them (NUMERICS.md, "Boxes").
+// the last place; the errors of the box test and of a computed hit are less (NUMERICS.md, "the device's boxes").
 const float SLACK = 1.9073486328125e-06; // 2^-19
 
 const int PENDING = 12; // boxes that a search in pairs can put off

@@ -7,6 +7,7 @@
 #include "scene.glsl"
 #include "arithmetic.glsl"
 #include "events.glsl"
+#include "sampling.glsl"
 #include "tally.glsl"
 #include "intersect.glsl"
 

@@ -52,19 +52,22 @@ static struct dvec3 place_center(struct random *random, unsigned pattern, double
     }
 }
 
-static void shuffle_file_order(struct random *random, struct hostile_scene *scene, unsigned count)
+/* The others stand in order, each looped one before some of them. */
+static void choose_file_order(struct random *random, struct hostile_scene *scene, unsigned looped,
+                              unsigned count)
 {
-    for (unsigned i = 0; i < count; ++i) {
-        unsigned other = random_below(random, i + 1);
-        scene->spheres[i].tags.FILE_ORDER = scene->spheres[other].tags.FILE_ORDER;
-        scene->spheres[other].tags.FILE_ORDER = (int)i;
-    }
+    enum { PLACES_BETWEEN = 16 };
+    for (unsigned i = looped; i < count; ++i)
+        scene->spheres[i].tags.FILE_ORDER = (int)(i * PLACES_BETWEEN);
+    for (unsigned i = 0; i < looped; ++i)
+        scene->spheres[i].tags.FILE_ORDER = (int)(random_below(random, count) * PLACES_BETWEEN + i + 1);
 }
 
-void hostile_scene_create(struct random *random, struct hostile_scene *scene)
+void hostile_scene_create(struct random *random, unsigned count, struct hostile_scene *scene)
 {
     const unsigned most = one_in(random, 4) ? 1 : one_in(random, 16) ? MOST_HOSTILE_SPHERES : 12;
-    const unsigned count = 1 + random_below(random, most);
+    if (count == 0)
+        count = 1 + random_below(random, most);
     const unsigned pattern = random_below(random, 9);
     const double size = one_in(random, 3) ? 1 : random_scale(random, 1e-8, 1);
     const bool alike = random_bool(random);
@@ -80,8 +83,8 @@ void hostile_scene_create(struct random *random, struct hostile_scene *scene)
         sphere->tags.HOLDS_RAYS = random_bool(random);
         sphere->tags.HOLDS_LIGHTS = random_bool(random);
     }
-    shuffle_file_order(random, scene, count);
-    int looped = one_in(random, 4) ? (int)random_below(random, count) : 0;
+    int looped = one_in(random, 4) ? (int)random_below(random, count < 8 ? count : 8) : 0;
+    choose_file_order(random, scene, (unsigned)looped, count);
     scene->without = (struct packed_scene){
         .sphere_count = (int)count,
         .looped_spheres = looped,

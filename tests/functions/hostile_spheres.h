@@ -16,9 +16,10 @@ struct hostile_scene {
         unit; /* of rays, which pass spheres by a few times as much: see tree_line */
 };
 
-/* Radii over ten decades, in clouds, in one plane, on one line, around one point, in each other, touching and
- * on a grid; in an order of their own. Some are looped over. */
-void hostile_scene_create(struct random *random, struct hostile_scene *scene);
+/* So many spheres (0: some), with radii over ten decades, in clouds, in one plane, on one line, around one
+ * point, in each other, touching and on a grid. Some are looped over, with places of their own in the file;
+ * the others are in order. */
+void hostile_scene_create(struct random *random, unsigned count, struct hostile_scene *scene);
 void hostile_scene_destroy(struct hostile_scene *scene);
 
 /* Gives its rays errors like those that a ray in float gathers on its way. */

@@ -58,8 +58,8 @@ typedef struct PackedQuadLight QuadLight;
 #define MATTE(MEMBER)                                                                                        \
     MEMBER(Vector, point)                                                                                    \
     MEMBER(Vector, normal)                                                                                   \
-    MEMBER(Vector, ray_direction) MEMBER(float, cos_out) MEMBER(int, surface) MEMBER(int, inward)            \
-        MEMBER(float, a) MEMBER(float, b)
+    MEMBER(Vector, ray_direction)                                                                            \
+    MEMBER(float, cos_out) MEMBER(int, surface) MEMBER(int, inward) MEMBER(float, a) MEMBER(float, b)
 STRUCT(RayRecord, RAY)
 STRUCT(HitRecord, HIT)
 STRUCT(SegmentRecord, SEGMENT)
@@ -120,7 +120,8 @@ STRUCT(MatteRecord, MATTE)
 #define FUNCTIONS(DO)                                                                                        \
     DO(divide)                                                                                               \
     DO(root)                                                                                                 \
-    DO(unit) DO(hash) DO(sobol_point) DO(meet_sphere) DO(meet_plane) DO(nearest_hit) DO(sphere_shadows)      \
+    DO(unit)                                                                                                 \
+    DO(hash) DO(sobol_point) DO(meet_sphere) DO(meet_plane) DO(nearest_hit) DO(sphere_shadows)               \
         DO(plane_shadows) DO(reflect) DO(refract) DO(oren_nayar) DO(point_light) DO(quad_light)
 
 #define MAKE_RECORDS(name)                                                                                   \

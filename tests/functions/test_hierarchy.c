@@ -1,5 +1,5 @@
-/* The device with its hierarchy of boxes against the reference that tries all spheres, on purpose where roundings
- * decide; and with another hierarchy over the same spheres: the same in every bit. */
+/* The device with its hierarchy of boxes against the reference that tries all spheres, on purpose where
+ * roundings decide; and with another hierarchy over the same spheres: the same in every bit. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,10 +14,6 @@
 #include "scene/hierarchy.h"
 #include "tracer/dispatch.h"
 #include "vulkan/probe.h"
-
-#ifndef SCENES
-#define SCENES 64
-#endif
 
 enum { GROUP = 64, CASES = 1 << 14, INPUTS = SCENE_BINDINGS, OUTPUTS, USED_BINDINGS };
 
@@ -37,7 +33,8 @@ struct output {
 };
 
 static struct vulkan_context *context;
-static struct vulkan_pass passes[MOST_HOSTILE_SPHERES + 1]; /* by the number of spheres that are looped over */
+static struct vulkan_pass
+    passes[MOST_HOSTILE_SPHERES + 1]; /* by the number of spheres that are looped over */
 static struct vulkan_buffer inputs, outputs;
 
 static void create_pass(int looped)
@@ -48,8 +45,18 @@ static void create_pass(int looped)
     const size_t count = fread(words, sizeof *words, sizeof words / sizeof *words, file);
     fclose(file);
     const struct pass_constant constants[] = {
-        {2, (uint32_t)looped}, {3, 0}, {4, 0},  {5, 0}, {13, 1}, {14, 1}, {16, 1}, {20, UINT32_MAX},
-        {22, 0},               {23, 0}, {32, 0}, {34, MOST_HOSTILE_SPHERES},
+        {2, (uint32_t)looped},
+        {3, 0},
+        {4, 0},
+        {5, 0},
+        {13, 1},
+        {14, 1},
+        {16, 1},
+        {20, UINT32_MAX},
+        {22, 0},
+        {23, 0},
+        {32, 0},
+        {34, MOST_HOSTILE_SPHERES},
     };
     VkDescriptorType bindings[USED_BINDINGS];
     for (uint32_t i = 0; i < USED_BINDINGS; ++i)
@@ -67,10 +74,28 @@ static void create_pass(int looped)
                      STATUS_DONE);
 }
 
+/* A ray that passes near the point where a sphere touches its box, along the box's side. */
+static struct ray ray_along_side(struct random *random, const struct hostile_scene *scene)
+{
+    const struct PackedSphere *sphere =
+        &scene->spheres[random_below(random, (unsigned)scene->without.sphere_count)];
+    const layout_vec4 shape = sphere->center_radius;
+    const double radius = (double)shape.w, way = random_scale(random, radius * 1e-2, 2);
+    const double error = 0x1p-24 * (way + radius);
+    const struct dvec3 normal = random_axis(random);
+    const struct dvec3 direction = random_tangent(random, normal);
+    struct dvec3 origin = {(double)shape.x, (double)shape.y, (double)shape.z};
+    origin = dvec3_along(origin, radius + error * random_between(random, -8, 8), normal);
+    origin = dvec3_along(origin, sqrt(2 * radius * error) * random_between(random, -3, 3),
+                         dvec3_cross(normal, direction));
+    origin = dvec3_along(origin, -way, direction);
+    return (struct ray){round_vector(origin), round_vector(direction), NO_SURFACE, false};
+}
+
 static void make_input(struct random *random, const struct hostile_scene *scene, struct ray *ray,
                        struct segment *segment, struct input *input)
 {
-    *ray = hostile_ray(random, scene);
+    *ray = random_bool(random) ? ray_along_side(random, scene) : hostile_ray(random, scene);
     *segment = hostile_segment(random, scene);
     *input = (struct input){
         .origin = {ray->origin.x, ray->origin.y, ray->origin.z},
@@ -94,12 +119,13 @@ static void run(struct packed_scene *packed)
     memcpy(buffers, memory.parts, sizeof memory.parts);
     buffers[INPUTS] = (VkDescriptorBufferInfo){inputs.buffer, 0, VK_WHOLE_SIZE};
     buffers[OUTPUTS] = (VkDescriptorBufferInfo){outputs.buffer, 0, VK_WHOLE_SIZE};
-    VkBufferView texels[USED_BINDINGS] = {[RECORDS] = memory.texels[RECORDS],
-                                          [RECORD_WORDS] = memory.texels[RECORD_WORDS]};
+    VkBufferView texels[USED_BINDINGS] = {
+        [RECORDS] = memory.texels[RECORDS], [RECORD_WORDS] = memory.texels[RECORD_WORDS]};
     if (!passes[packed->looped_spheres].pipeline)
         create_pass(packed->looped_spheres);
     struct pass_frame frame;
-    assert_int_equal(pass_frame_create(&passes[packed->looped_spheres], buffers, texels, &frame), STATUS_DONE);
+    assert_int_equal(pass_frame_create(&passes[packed->looped_spheres], buffers, texels, &frame),
+                     STATUS_DONE);
     assert_int_equal(
         pass_frame_submit(&frame, &(struct pass_dispatch){.groups_x = CASES / GROUP, .groups_y = 1}),
         STATUS_DONE);
@@ -133,8 +159,8 @@ static void compare(const struct hostile_scene *scene, const struct ray *ray, co
 }
 
 /* A hierarchy that parts the spheres by their number: boxes that overlap at will. */
-static void halve(struct hierarchy *hierarchy, const struct PackedSphere *spheres, uint32_t node, uint32_t *next,
-                  uint32_t first, uint32_t count)
+static void halve(struct hierarchy *hierarchy, const struct PackedSphere *spheres, uint32_t node,
+                  uint32_t *next, uint32_t first, uint32_t count)
 {
     struct hierarchy one;
     assert_int_equal(hierarchy_build(spheres, first, count, &one), STATUS_DONE);
@@ -186,9 +212,10 @@ static void test_hierarchies(void **state)
             test_scene(&random, &counts, halved);
         }
     const long cases = 2L * SCENES * CASES;
-    print_message("%ld rays and segments, %ld hits, %ld blocked, %ld in several rounds: %ld are not as without the "
-                  "hierarchy\n",
-                  cases, counts.met, counts.blocked, counts.resumed, counts.wrong);
+    print_message(
+        "%ld rays and segments, %ld hits, %ld blocked, %ld in several rounds: %ld are not as without the "
+        "hierarchy\n",
+        cases, counts.met, counts.blocked, counts.resumed, counts.wrong);
     assert_true(counts.met > cases / 4 && counts.blocked > cases / 4 && counts.resumed > cases / 8);
     assert_int_equal(counts.wrong, 0);
 }
@@ -210,6 +237,6 @@ int main(void)
     vulkan_buffer_destroy(context, &outputs);
     vulkan_buffer_destroy(context, &inputs);
     const bool valid = context->validation_messages == 0;
-    vulkan_context_destroy(context);
+    vulkan_context_destroy(&context);
     return failed > 0 || !valid ? EXIT_FAILURE : EXIT_SUCCESS;
 }

@@ -30,7 +30,7 @@ static void test_hits(void **state)
     for (uint64_t i = 0; i < CASES / RAYS_A_SCENE; ++i) {
         struct random random = random_start(11, REFERENCE_BITS, i);
         struct hostile_scene scene;
-        hostile_scene_create(&random, &scene);
+        hostile_scene_create(&random, 0, &scene);
         for (int k = 0; k < RAYS_A_SCENE; ++k) {
             struct ray ray = hostile_ray(&random, &scene);
             struct hit expected, hit;
@@ -58,7 +58,7 @@ static void test_shadows(void **state)
     for (uint64_t i = 0; i < CASES / RAYS_A_SCENE; ++i) {
         struct random random = random_start(12, REFERENCE_BITS, i);
         struct hostile_scene scene;
-        hostile_scene_create(&random, &scene);
+        hostile_scene_create(&random, 0, &scene);
         for (int k = 0; k < RAYS_A_SCENE; ++k) {
             struct segment segment = hostile_segment(&random, &scene);
             bool expected = is_blocked(&scene.without, &segment);

@@ -37,7 +37,7 @@ static void test_hits(void **state)
     for (uint64_t i = 0; i < CASES / RAYS_A_SCENE; ++i) {
         struct random random = random_start(13, 0, i);
         struct hostile_scene scene;
-        hostile_scene_create(&random, &scene);
+        hostile_scene_create(&random, 0, &scene);
         for (int k = 0; k < RAYS_A_SCENE; ++k) {
             hostile_scene_blur(&random, &scene);
             struct ray ray = hostile_ray(&random, &scene);
@@ -62,7 +62,7 @@ static void test_shadows(void **state)
     for (uint64_t i = 0; i < CASES / RAYS_A_SCENE; ++i) {
         struct random random = random_start(14, 0, i);
         struct hostile_scene scene;
-        hostile_scene_create(&random, &scene);
+        hostile_scene_create(&random, 0, &scene);
         for (int k = 0; k < RAYS_A_SCENE; ++k) {
             hostile_scene_blur(&random, &scene);
             struct segment segment = hostile_segment(&random, &scene);
