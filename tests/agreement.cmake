@@ -60,10 +60,7 @@ endforeach()
 # More than 2^21 pixels take two dispatches.
 add_agreement(figure_4/2051x1033 ${PROJECT_SOURCE_DIR}/scenes/figure_4.yaml --size 2051x1033)
 
-foreach(scene IN LISTS many_spheres_scenes)
-    cmake_path(GET scene STEM name)
-    add_agreement(${name}/61x41 ${scene} -q --size 61x41)
-endforeach()
+add_agreement(sphereflake/97x61 ${PROJECT_SOURCE_DIR}/scenes/sphereflake.yaml --size 97x61)
 
 function(add_scattered count)
     execute_process(COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scenes/scatter_spheres.sh ${count}

@@ -92,9 +92,10 @@ static void ways_of_writing_a_header(void **state)
 /* Of an array without rows nothing is left but the object. */
 static void no_rows(void **state)
 {
+    float none[1][4] = {{0}};
     struct scene scene;
     (void)state;
-    npy_write("flake.npy", 0, NULL);
+    npy_write("flake.npy", 0, none);
     read_good(FLAKE, &scene);
     assert_int_equal(scene.object_count, 1);
     assert_int_equal(scene.objects[0].spheres.count, 0);

@@ -61,6 +61,11 @@ static void spheres_that_cross(void **state)
                   "  - { name: A, type: sphere, center: [0, 0, 4], radius: 1, material: Glass }\n"
                   "  - { name: B, type: sphere, center: [0.5, 0, 4], radius: 0.51, material: Air }\n",
                   OVERLAP("10:5", "A", "B", ""));
+    check_warning(
+        "objects:\n" /* in float the large one ends below the small one */
+        "  - { name: A, type: sphere, center: [0, -1000003.73, 0], radius: 1000000.7, material: Glass }\n"
+        "  - { name: B, type: sphere, center: [0, -2.05, 0], radius: 1, material: Glass }\n",
+        OVERLAP("10:5", "A", "B", ""));
     check_warning("objects:\n" /* twice the same */
                   "  - { name: A, type: sphere, center: [0.1, 0.2, 4], radius: 1, material: Glass }\n"
                   "  - { name: B, type: sphere, center: [0.1, 0.2, 4], radius: 1, material: Glass }\n",

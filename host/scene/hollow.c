@@ -3,7 +3,7 @@
 #include "base/interrupt.h"
 #include "scene/body.h"
 
-enum { LEAST_PARALLEL = 4096 }; /* nodes of the hierarchy for which other threads pay */
+enum { LEAST_PARALLEL = 4096 }; /* spheres or nodes for which other threads pay */
 
 /* A body whose surface is looked for in a sphere. */
 struct search {
@@ -38,16 +38,6 @@ static bool another_reaches_in(struct search *search)
     return search->found;
 }
 
-/* Whether a ray or a shading point can lie within the sphere other than on it: the camera is in it, or it is
- * transparent and another surface reaches in. */
-static bool holds_rays(const struct packed_scene *packed, int sphere)
-{
-    struct search search = {.packed = packed, .holder = body_packed(packed, sphere), .sphere = sphere};
-    if (body_distance(search.holder, dvec3_of_vec4(packed->view.position)) < 0)
-        return true;
-    return body_surface(packed, sphere)->tags.SURFACE_KIND == KIND_TRANSPARENT && another_reaches_in(&search);
-}
-
 /* Whether some point of a light may lie within the sphere; for quads, of the ball around them. */
 static bool holds_lights(const struct packed_scene *packed, int sphere)
 {
@@ -64,21 +54,35 @@ static bool holds_lights(const struct packed_scene *packed, int sphere)
     return holds;
 }
 
-static void pack_tags(struct packed_scene *packed, int sphere)
+static void look_inside(struct packed_scene *packed, int sphere)
 {
-    packed->spheres[sphere].tags.HOLDS_RAYS = holds_rays(packed, sphere);
-    packed->spheres[sphere].tags.HOLDS_LIGHTS = holds_lights(packed, sphere);
+    struct search search = {.packed = packed, .holder = body_packed(packed, sphere), .sphere = sphere};
+    layout_ivec4 *tags = &packed->spheres[sphere].tags;
+    if (body_surface(packed, sphere)->tags.SURFACE_KIND == KIND_TRANSPARENT && !tags->HOLDS_RAYS)
+        tags->HOLDS_RAYS = another_reaches_in(&search);
 }
 
-/* In the order of the hierarchy, so that those one after the other ask for the same of its nodes. */
+/* A ray or a shading point can lie within a sphere other than on it if the camera is in it, or if it is
+ * transparent and another surface reaches in. That is asked in the order of the hierarchy, so that spheres
+ * one after the other look at the same of its nodes. */
 enum status hollow_pack(struct packed_scene *packed)
 {
     const struct hierarchy *others = packed->hierarchy;
+    const uint32_t nodes = others ? others->node_count : 0;
+    const struct dvec3 camera = dvec3_of_vec4(packed->view.position);
+#pragma omp parallel for if (packed->sphere_count > LEAST_PARALLEL)
+    for (int i = 0; i < packed->sphere_count; ++i) {
+        packed->spheres[i].tags.HOLDS_RAYS = body_distance(body_packed(packed, i), camera) < 0;
+        packed->spheres[i].tags.HOLDS_LIGHTS = holds_lights(packed, i);
+    }
+    bool glass = false;
+    for (int i = 0; i < packed->surface_count; ++i)
+        glass |= packed->surfaces[i].tags.SURFACE_KIND == KIND_TRANSPARENT;
     for (int i = 0; i < packed->looped_spheres; ++i)
-        pack_tags(packed, i);
-#pragma omp parallel for schedule(dynamic, 1024) if (others && others->node_count > LEAST_PARALLEL)
-    for (uint32_t i = 0; i < (others ? others->node_count : 0); ++i)
+        look_inside(packed, i);
+#pragma omp parallel for schedule(dynamic, 1024) if (nodes > LEAST_PARALLEL)
+    for (uint32_t i = 0; i < (glass ? nodes : 0); ++i)
         if (others->nodes[i].left == 0 && !interrupt_requested())
-            pack_tags(packed, (int)others->nodes[i].sphere);
+            look_inside(packed, (int)others->nodes[i].sphere);
     return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_DONE;
 }

@@ -46,19 +46,22 @@ static bool is_among(const struct largest *largest, size_t sphere)
 }
 
 struct extent {
-    struct dvec3 lo, hi;
+    double lo[3], hi[3];
 };
 
 static void include(struct extent *extent, struct body ball)
 {
-    const struct dvec3 center = ball.vector;
-    const double radius = ball.number;
-    extent->lo.x = fmin(extent->lo.x, center.x - radius);
-    extent->lo.y = fmin(extent->lo.y, center.y - radius);
-    extent->lo.z = fmin(extent->lo.z, center.z - radius);
-    extent->hi.x = fmax(extent->hi.x, center.x + radius);
-    extent->hi.y = fmax(extent->hi.y, center.y + radius);
-    extent->hi.z = fmax(extent->hi.z, center.z + radius);
+    const double center[3] = {ball.vector.x, ball.vector.y, ball.vector.z};
+    for (int a = 0; a < 3; ++a) {
+        const double lo = center[a] - ball.number, hi = center[a] + ball.number;
+        extent->lo[a] = lo < extent->lo[a] ? lo : extent->lo[a];
+        extent->hi[a] = hi > extent->hi[a] ? hi : extent->hi[a];
+    }
+}
+
+static double longest_side(const struct extent *extent)
+{
+    return dvec3_largest(dvec3_subtract(dvec3_of(extent->hi), dvec3_of(extent->lo)));
 }
 
 static struct extent extent_without(const struct scene *scene, const struct largest *largest)
@@ -82,7 +85,7 @@ struct looped looped_choose(const struct scene *scene)
     looped.giant_count = MOST_GIANTS;
     for (; looped.giant_count > 0; --looped.giant_count) { /* the smallest first: if it is one, all are */
         const struct body body = largest.candidates[looped.giant_count - 1].body;
-        if (2 * body.number > dvec3_largest(dvec3_subtract(extent.hi, extent.lo)) / 2)
+        if (2 * body.number > longest_side(&extent) / 2)
             break;
         include(&extent, body);
     }

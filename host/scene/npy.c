@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "base/interrupt.h"
-#include "scene/npy_header.h"
+#include "scene/scene.h"
 
 enum { PIECE = 1 << 20 }; /* bytes that are read at a time, a multiple of the size of a row */
 

@@ -4,9 +4,8 @@
 #include <stddef.h>
 
 #include "base/status.h"
+#include "scene/npy_header.h"
 #include "scene/schema.h"
-
-enum { NPY_COLUMNS = 4, NPY_MESSAGE = 256 };
 
 /* What the numbers of a column are and must be. */
 struct npy_column {

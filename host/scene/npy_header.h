@@ -4,9 +4,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "scene/npy.h"
+#include "base/status.h"
 
-enum { NPY_MOST_HEADER = 4096 }; /* bytes; numpy.save() writes 128 for such an array */
+enum {
+    NPY_COLUMNS = 4,
+    NPY_MESSAGE = 256,
+    NPY_MOST_HEADER = 4096 /* bytes; numpy.save() writes 128 for such an array */
+};
 
 /* What stands before the values of an array of shape (rows, 4). */
 struct npy_header {
