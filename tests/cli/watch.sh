@@ -94,8 +94,8 @@ broken_and_repaired() {
     cmp a.pfm first.pfm || fail 'the last good picture has gone'
     turn 'picture 2: same pipeline' cp "$SOURCE_DIR/shaders/dielectric.glsl" shaders/
     cmp a.pfm first.pfm || fail 'the picture is not what it was'
-    turn 'compile failed' edit 's/binding = 8/binding = 11/' shaders/pixel.glsl
-    said '^shaders/whitted.comp: error: set 0, binding 11: the program provides'
+    turn 'compile failed' edit 's/binding = 8/binding = 12/' shaders/pixel.glsl
+    said '^shaders/whitted.comp: error: set 0, binding 12: the program provides'
     turn 'picture 3: same pipeline' cp "$SOURCE_DIR/shaders/pixel.glsl" shaders/
     finish
 }

@@ -13,10 +13,12 @@ enum {
     MIXED_ORDER = 16,
     PLANE_AXES = 18,
     ENTERED_SPHERES = 20,
+    ALL_SPHERES = 34,
 };
 
 const struct pass_constant common_constants[COMMON_CONSTANTS] = {
     {SPHERES, 1},
+    {ALL_SPHERES, 1},
     {PLANES, 1},
     {QUAD_LIGHTS, 1},
     {LIGHT_SAMPLES, QUAD_LIGHT_SAMPLES},
@@ -41,8 +43,8 @@ FUNCTIONS(UNTYPED)
 #define TEXT_float ":f"
 #define TEXT_int ":i"
 #define TEXT_Vector ":fff"
-#define TEXT_Sphere ":ffff parameters:ffff more_parameters:ffff tags:iiii"
-#define TEXT_Plane TEXT_Sphere
+#define TEXT_Sphere ":ffff tags:iiii"
+#define TEXT_Plane ":ffff parameters:ffff more_parameters:ffff tags:iiii"
 #define TEXT_QuadLight ":ffff edge_u:ffff edge_v:ffff area_normal:ffff radiance:ffff"
 #define TEXT_RayRecord " " RAY(INNER_TEXT)
 #define TEXT_HitRecord " " HIT(INNER_TEXT)
@@ -65,7 +67,7 @@ FUNCTIONS(UNTYPED)
         ENTERED_SPHERES, 0                                                                                   \
     }
 #define TWO_OF_EACH                                                                                          \
-    {SPHERES, 2},                                                                                            \
+    {SPHERES, 2}, {ALL_SPHERES, 2},                                                                          \
     {                                                                                                        \
         PLANES, 2                                                                                            \
     }

@@ -15,7 +15,7 @@ union word {
 
 enum { MOST_WORDS = 80 }; /* of a record */
 
-enum { COMMON_CONSTANTS = 4, MOST_CONSTANTS = 8 };
+enum { COMMON_CONSTANTS = 5, MOST_CONSTANTS = 9 };
 
 /* Of every test that does not set its own: a scene of one sphere and one plane. */
 extern const struct pass_constant common_constants[COMMON_CONSTANTS];
