@@ -15,9 +15,10 @@ struct scene_buffer {
 /* Whether a part of the scene is too large for the device's uniform buffers, or has a hierarchy. */
 bool scene_needs_storage(const struct vulkan_context *context, const struct packed_scene *scene);
 
-/* Lays the scene's parts out in one buffer, to be bound as uniform or as storage buffers. On failure (reported) it is empty. */
-enum status scene_buffer_create(struct vulkan_context *context, const struct packed_scene *scene, bool storage,
-                                struct scene_buffer *scene_buffer);
+/* Lays the scene's parts out in one buffer, to be bound as uniform or as storage buffers. On failure
+ * (reported) it is empty. */
+enum status scene_buffer_create(struct vulkan_context *context, const struct packed_scene *scene,
+                                bool storage, struct scene_buffer *scene_buffer);
 void scene_buffer_destroy(struct vulkan_context *context, struct scene_buffer *scene_buffer);
 
 /* Copies a scene without a hierarchy and with as many objects and lights over the one in the buffer. */

@@ -53,8 +53,8 @@ struct tracer_options {
     struct spirv code;     /* of the shader that tracer_shader() tells; empty: the built-in one */
 };
 
-/* shaders/whitted.comp as compiled by the build, the scene in uniform or in storage buffers; only the latter has a
- * hierarchy. */
+/* shaders/whitted.comp as compiled by the build, the scene in uniform or in storage buffers; only the latter
+ * has a hierarchy. */
 struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage);
 
 /* The options with which the build has glslangValidator compile it; NULL behind the last. Not for the

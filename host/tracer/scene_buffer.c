@@ -11,7 +11,8 @@ struct scene_part {
     VkFormat format; /* of texels */
 };
 
-static struct scene_part part_of(const struct packed_scene *scene, const struct sphere_records *records, int i)
+static struct scene_part part_of(const struct packed_scene *scene, const struct sphere_records *records,
+                                 int i)
 {
     const struct scene_part parts[SCENE_BINDINGS] = {
         [VIEW] = {&scene->view, sizeof scene->view, 0},
@@ -68,13 +69,13 @@ static enum status create_texels(struct vulkan_context *context, VkFormat format
     const VkPhysicalDeviceLimits *limits = &context->properties.limits;
     if (count <= limits->maxTexelBufferElements)
         return vulkan_texels_create(context, scene_buffer->parts[i], format, &scene_buffer->texels[i]);
-    log_error("the spheres need a buffer of %llu texels; %s has them with up to %u", (unsigned long long)count,
-              context->properties.deviceName, limits->maxTexelBufferElements);
+    log_error("the spheres need a buffer of %llu texels; %s has them with up to %u",
+              (unsigned long long)count, context->properties.deviceName, limits->maxTexelBufferElements);
     return STATUS_UNABLE;
 }
 
-enum status scene_buffer_create(struct vulkan_context *context, const struct packed_scene *scene, bool storage,
-                                struct scene_buffer *scene_buffer)
+enum status scene_buffer_create(struct vulkan_context *context, const struct packed_scene *scene,
+                                bool storage, struct scene_buffer *scene_buffer)
 {
     const struct sphere_records records = sphere_records_plan(scene);
     const int parts = storage ? SCENE_BINDINGS : RECORDS;
@@ -90,9 +91,9 @@ enum status scene_buffer_create(struct vulkan_context *context, const struct pac
         const struct scene_part part = part_of(scene, &records, i);
         scene_buffer->parts[i].buffer = scene_buffer->buffer.buffer;
         if (part.format)
-            status = create_texels(context, part.format,
-                                   scene_buffer->parts[i].range / (part.format == VK_FORMAT_R32_UINT ? 4 : 16), i,
-                                   scene_buffer);
+            status = create_texels(
+                context, part.format,
+                scene_buffer->parts[i].range / (part.format == VK_FORMAT_R32_UINT ? 4 : 16), i, scene_buffer);
     }
     if (status != STATUS_DONE) {
         scene_buffer_destroy(context, scene_buffer);

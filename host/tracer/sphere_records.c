@@ -5,13 +5,13 @@
 
 #include "scene/hierarchy.h"
 
-/* Where a box is on the grid over all boxes. The grid begins so many steps below them that the upper ends, which lie in
- * the high half of a word, make a normal number of it: processors are slow with denormals, which the shader would
- * compute with where it takes boxes for spheres, and ignore. */
+/* Where a box is on the grid over all boxes. The grid begins so many steps below them that the upper ends,
+ * which lie in the high half of a word, make a normal number of it: processors are slow with denormals, which
+ * the shader would compute with where it takes boxes for spheres, and ignore. */
 enum { STEPS_BELOW = 257, STEPS = 65200 };
 
-/* A box of the stream is worth its record if it is smaller than that of the record above by this factor: 0.6 to 0.9
- * cost the same, within noise, 1 (all boxes) a tenth more. */
+/* A box of the stream is worth its record if it is smaller than that of the record above by this factor: 0.6
+ * to 0.9 cost the same, within noise, 1 (all boxes) a tenth more. */
 static const float worth = 0.75F;
 
 struct writing {
@@ -109,8 +109,8 @@ static void write_pair(struct writing *writing, uint32_t node)
     write_child(writing, record + 1, left + 1);
 }
 
-/* Writes the subtree as it comes depth first, the larger child before the smaller one: what blocks a light is found
- * sooner. above: the half area of the box around. */
+/* Writes the subtree as it comes depth first, the larger child before the smaller one: what blocks a light is
+ * found sooner. above: the half area of the box around. */
 static void write_stream(struct writing *writing, uint32_t place, float above)
 {
     const struct hierarchy_node *node = &writing->nodes[place];
@@ -124,7 +124,8 @@ static void write_stream(struct writing *writing, uint32_t place, float above)
     const float area = half_area(&node->box);
     const bool kept = area < worth * above;
     writing->next += kept;
-    const bool turned = half_area(&writing->nodes[node->left].box) < half_area(&writing->nodes[node->left + 1].box);
+    const bool turned =
+        half_area(&writing->nodes[node->left].box) < half_area(&writing->nodes[node->left + 1].box);
     write_stream(writing, node->left + turned, kept ? area : above);
     write_stream(writing, node->left + !turned, kept ? area : above);
     if (kept && writing->records)

@@ -36,8 +36,8 @@ enum status vulkan_buffer_create(struct vulkan_context *context, const char *nam
                     .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                     .size = size,
                     .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                             VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
-                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                             VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                             VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                 },
                 NULL, &buffer->buffer);
     vulkan_name(context, VK_OBJECT_TYPE_BUFFER, (uint64_t)buffer->buffer, name);

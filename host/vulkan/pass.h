@@ -58,8 +58,8 @@ enum status vulkan_pass_create(struct vulkan_context *context, const struct pass
 /* Destroys a pass without frames, or nothing, and empties *pass. */
 void vulkan_pass_destroy(struct vulkan_pass *pass);
 
-/* Makes a frame with these buffers, and views of texel buffers (perhaps NULL), one for each binding that the shader uses,
- * which must outlive it, as the pass must. On failure (reported) *frame is empty. */
+/* Makes a frame with these buffers, and views of texel buffers (perhaps NULL), one for each binding that the
+ * shader uses, which must outlive it, as the pass must. On failure (reported) *frame is empty. */
 enum status pass_frame_create(const struct vulkan_pass *pass, const VkDescriptorBufferInfo *buffers,
                               const VkBufferView *texels, struct pass_frame *frame);
 

@@ -17,11 +17,7 @@ enum {
 };
 
 const struct pass_constant common_constants[COMMON_CONSTANTS] = {
-    {SPHERES, 1},
-    {ALL_SPHERES, 1},
-    {PLANES, 1},
-    {QUAD_LIGHTS, 1},
-    {LIGHT_SAMPLES, QUAD_LIGHT_SAMPLES},
+    {SPHERES, 1}, {ALL_SPHERES, 1}, {PLANES, 1}, {QUAD_LIGHTS, 1}, {LIGHT_SAMPLES, QUAD_LIGHT_SAMPLES},
 };
 
 #define UNTYPED(name)                                                                                        \
