@@ -93,12 +93,16 @@ static void group_shape(void **state)
  * anything, more than the picture. */
 static void tile_size(void **state)
 {
-    static const uint32_t tiles[] = {100, 4096};
+    static const struct {
+        uint32_t pixels;
+        struct window window; /* small, where there are many tiles */
+    } tiles[] = {{100, {0, 90, WIDTH, 20}}, {4096, {0, 0, WIDTH, HEIGHT}}};
     (void)state;
     uint32_t real_limit = test_context->properties.limits.maxStorageBufferRange;
     for (size_t i = 0; i < sizeof tiles / sizeof *tiles; ++i) {
-        test_context->properties.limits.maxStorageBufferRange = tiles[i] * 4 * (uint32_t)sizeof(float);
-        compare_with_whole(whole_window);
+        test_context->properties.limits.maxStorageBufferRange =
+            tiles[i].pixels * 4 * (uint32_t)sizeof(float);
+        compare_with_whole(tiles[i].window);
     }
     test_context->properties.limits.maxStorageBufferRange = real_limit;
 }
