@@ -77,7 +77,10 @@ add_cli_tests(usage no_command unknown_command unknown_option missing_argument v
               crop_outside option_of_another_command choices impossible_together several_scenes help_and_version
               manual_page completion)
 add_cli_tests(input missing_scene folder_as_scene bad_scene bad_scene_among_good_ones scene_that_is_warned_of)
-add_cli_tests(spheres bad_files rows_as_objects names_of_rows arrays)
+add_cli_tests(spheres bad_files arrays)
+if(VKWHITTED_TESTS STREQUAL "all")
+    add_cli_tests(spheres rows_as_objects names_of_rows)
+endif()
 add_cli_tests(output formats same_bits_on_both_backends exr_metadata transfer unknown_suffix unwritable_folder
               missing_folder disk_full existing_file_kept_on_failure crop_of_16384 stats)
 add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer
@@ -87,9 +90,9 @@ if(VKWHITTED_TESTS STREQUAL "all")
 endif()
 add_cli_tests(check agreement difference tolerance allow heatmap json worst_status)
 add_cli_tests(bench without_device report bad_comparison options interrupted)
-add_cli_tests(pixel agreement samples max_bounces max_error against json light_samples place options)
+add_cli_tests(pixel samples max_bounces max_error against json light_samples place options)
 if(VKWHITTED_TESTS STREQUAL "all")
-    add_cli_tests(pixel broken_k_r broken_shadow broken_normal broken_total broken_term broken_picture)
+    add_cli_tests(pixel agreement broken_k_r broken_shadow broken_normal broken_total broken_term broken_picture)
 endif()
 add_cli_tests(interrupt sigint_on_device sigint_on_cpu sigterm)
 add_cli_tests(watch scene_edits_keep_the_pipeline shader_edits broken_and_repaired broken_at_the_start ways_of_saving
