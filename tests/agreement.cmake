@@ -72,7 +72,6 @@ endfunction()
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS scenes/scatter_spheres.sh)
 add_scattered(10)
 add_scattered(30)
-add_scattered(300)
 add_scattered(1100 --max-bounces 1 --light-samples 1)
 
 # Lavapipe ends all loops of an invocation after 65535 turns, counted together (Mesa's LP_MAX_TGSI_LOOP_ITERATIONS),
