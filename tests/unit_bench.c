@@ -11,6 +11,7 @@
 
 #include "base/statistics.h"
 #include "bench/document.h"
+#include "failing_memory.h"
 #include "test_folder.h"
 #include "test_render.h"
 
@@ -287,24 +288,6 @@ static void no_bench_document(void **state)
         assert_null(document);
         assert_non_null(strstr(message, "old.json"));
     }
-}
-
-/* The linker has calloc() and malloc() of the program, but not of its libraries, come here. The one that is
- * so many calls away fails. */
-static int calls_to_failure = -1;
-void *__real_calloc(size_t count, size_t size);
-void *__real_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_malloc(size_t size);
-
-void *__wrap_calloc(size_t count, size_t size)
-{
-    return calls_to_failure-- == 0 ? NULL : __real_calloc(count, size);
-}
-
-void *__wrap_malloc(size_t size)
-{
-    return calls_to_failure-- == 0 ? NULL : __real_malloc(size);
 }
 
 static struct scene glass;

@@ -11,6 +11,7 @@
 #include <glob.h>
 #include <stdlib.h>
 
+#include "failing_memory.h"
 #include "pixel/ray_tree.h"
 #include "test_render.h"
 #include "tracer/reference_scene.h"
@@ -153,24 +154,6 @@ static void clouds(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
         check_scene(names[i], test_read(names[i]), make_cloud);
-}
-
-/* The linker has the libraries under test call these instead of calloc and malloc. The call that is so many
- * calls away fails. */
-static int calls_to_failure = -1;
-void *__real_calloc(size_t count, size_t size);
-void *__real_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_malloc(size_t size);
-
-void *__wrap_calloc(size_t count, size_t size)
-{
-    return calls_to_failure-- == 0 ? NULL : __real_calloc(count, size);
-}
-
-void *__wrap_malloc(size_t size)
-{
-    return calls_to_failure-- == 0 ? NULL : __real_malloc(size);
 }
 
 /* Each of the tree's allocations fails once. */

@@ -53,12 +53,6 @@ static struct box box_around(const struct leaf *leaf)
     return box;
 }
 
-static float half_area(const struct box *box)
-{
-    float x = box->hi[0] - box->lo[0], y = box->hi[1] - box->lo[1], z = box->hi[2] - box->lo[2];
-    return x * y + y * z + z * x;
-}
-
 /* Where to part leaves: by the number of the bin that their centre lies in along an axis. */
 struct split {
     int axis; /* -1: there is none */
@@ -85,13 +79,13 @@ static void choose_bin(const struct bin bins[BINS], int axis, float *least_cost,
     for (int i = BINS - 1; i > 0; --i) {
         include(&side.box, bins[i].box.lo, bins[i].box.hi);
         side.count += bins[i].count;
-        right_cost[i] = side.count > 0 ? half_area(&side.box) * (float)side.count : INFINITY;
+        right_cost[i] = side.count > 0 ? box_half_area(&side.box) * (float)side.count : INFINITY;
     }
     side = (struct bin){nothing(), 0};
     for (int i = 1; i < BINS; ++i) {
         include(&side.box, bins[i - 1].box.lo, bins[i - 1].box.hi);
         side.count += bins[i - 1].count;
-        float cost = side.count > 0 ? half_area(&side.box) * (float)side.count + right_cost[i] : INFINITY;
+        float cost = side.count > 0 ? box_half_area(&side.box) * (float)side.count + right_cost[i] : INFINITY;
         if (cost < *least_cost) {
             *least_cost = cost;
             split->axis = axis;

@@ -15,6 +15,12 @@ struct box {
     float lo[3], hi[3]; /* rounded outwards */
 };
 
+static inline float box_half_area(const struct box *box)
+{
+    float x = box->hi[0] - box->lo[0], y = box->hi[1] - box->lo[1], z = box->hi[2] - box->lo[2];
+    return x * y + y * z + z * x;
+}
+
 struct hierarchy_node {
     struct box box;
     uint32_t left;   /* of two children, of which the right one is next to it; 0: a leaf */

@@ -23,12 +23,6 @@ struct writing {
     uint32_t next; /* record */
 };
 
-static float half_area(const struct box *box)
-{
-    float x = box->hi[0] - box->lo[0], y = box->hi[1] - box->lo[1], z = box->hi[2] - box->lo[2];
-    return x * y + y * z + z * x;
-}
-
 static void lay_grid(struct writing *writing, const struct box *box)
 {
     for (int a = 0; a < 3; ++a) {
@@ -121,11 +115,11 @@ static void write_stream(struct writing *writing, uint32_t place, float above)
         ++writing->next;
         return;
     }
-    const float area = half_area(&node->box);
+    const float area = box_half_area(&node->box);
     const bool kept = area < worth * above;
     writing->next += kept;
     const bool turned =
-        half_area(&writing->nodes[node->left].box) < half_area(&writing->nodes[node->left + 1].box);
+        box_half_area(&writing->nodes[node->left].box) < box_half_area(&writing->nodes[node->left + 1].box);
     write_stream(writing, node->left + turned, kept ? area : above);
     write_stream(writing, node->left + !turned, kept ? area : above);
     if (kept && writing->records)
