@@ -160,33 +160,40 @@ void begin_search(Ray ray, Hit looped)
     }
 }
 
+// The nearest sphere of the pairs so far.
+struct Found {
+    real distance;
+    int place;
+    bool tied; // with another, or with what is looped over
+};
+
+void take_nearer(uvec4 record, int place, int own_place, Ray ray, inout Found found)
+{
+    real distance;
+    bool met = meets(record, place, own_place, ray, distance);
+    bool closer = met && distance < found.distance;
+    found.tied = !closer && (found.tied || (met && distance == found.distance));
+    found.distance = closer ? distance : found.distance;
+    found.place = closer ? place : found.place;
+}
+
 // Looks for the nearest sphere in the pairs. Whether it is found; otherwise the stream is left.
 bool search_pairs(Ray ray)
 {
     Slabs slabs = slabs_of(ray.origin, ray.direction);
     int own_place = place_of(ray.surface, PLACE_IN_PAIRS);
-    real nearest = search.distance;
-    int place = -1, at = int(HEAD_RECORDS);
-    bool tied = false, lost = false;
+    Found found = Found(search.distance, -1, false);
+    int at = int(HEAD_RECORDS);
+    bool lost = false;
     int pending[PENDING + 1]; // all entries move, so that they stay in registers
     [[unroll]] for (int i = 0; i <= PENDING; ++i)
         pending[i] = -1;
     while (at >= 0 && steps > 0u) {
         uvec4 left = imageLoad(records, at), right = imageLoad(records, at + 1);
-        real cut = larger(nearest, real(0)), left_entry, right_entry, left_hit, right_hit;
+        real cut = larger(found.distance, real(0)), left_entry, right_entry;
         bool left_entered = enters(left, slabs, cut, left_entry), right_entered = enters(right, slabs, cut, right_entry);
-        bool left_met = meets(left, at, own_place, ray, left_hit);
-        tied = tied || (left_met && left_hit == nearest);
-        bool closer = left_met && left_hit < nearest;
-        nearest = closer ? left_hit : nearest;
-        place = closer ? at : place;
-        tied = tied && !closer;
-        bool right_met = meets(right, at + 1, own_place, ray, right_hit);
-        tied = tied || (right_met && right_hit == nearest);
-        closer = right_met && right_hit < nearest;
-        nearest = closer ? right_hit : nearest;
-        place = closer ? at + 1 : place;
-        tied = tied && !closer;
+        take_nearer(left, at, own_place, ray, found);
+        take_nearer(right, at + 1, own_place, ray, found);
 
         bool both = left_entered && right_entered, right_first = right_entry < left_entry;
         int next = (both ? right_first : right_entered) ? link_of(right) : link_of(left);
@@ -200,9 +207,9 @@ bool search_pairs(Ray ray)
         lost = lost || (both && put_off >= 0);
         --steps;
     }
-    search.distance = nearest;
-    search.sphere = place >= 0 ? sphere_of(record_word(place)) : search.sphere;
-    return !tied && !lost && at < 0;
+    search.distance = found.distance;
+    search.sphere = found.place >= 0 ? sphere_of(record_word(found.place)) : search.sphere;
+    return !found.tied && !lost && at < 0;
 }
 
 // Looks for the nearest sphere in the stream, and of equally near ones for the first of the file.
