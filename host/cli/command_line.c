@@ -1,6 +1,8 @@
+#include <errno.h>
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/output_file.h"
 #include "cli/option_table.h"
@@ -100,12 +102,19 @@ static enum status read_place(struct options *options)
     return STATUS_REFUSED;
 }
 
+bool options_heatmap_folder(const struct options *options)
+{
+    const size_t length = options->heatmap ? strlen(options->heatmap) : 0;
+    return length > 0 && options->heatmap[length - 1] == '/';
+}
+
 static enum status check_consistency(const struct options *options)
 {
     enum command_id command = options->command;
     enum precision precision = options->job.plan.precision;
     size_t scenes = options->scene_count;
     const char *suffix = options->heatmap ? strrchr(options->heatmap, '.') : NULL;
+    bool heatmap_file = options->heatmap && !options_heatmap_folder(options);
     bool cpu = options->backend == BACKEND_CPU, against = options->against != PRECISION_FLOAT;
     const struct {
         bool is_so;
@@ -124,15 +133,17 @@ static enum status check_consistency(const struct options *options)
         {precision != PRECISION_FLOAT && (options->job.plan.fast || against),
          "--fast and --against go with --precision float"},
         {cpu && options->job.plan.fast, "--fast is a device's pipeline; it does not go with --backend cpu"},
-        {cpu && (options->vulkan.device || options->vulkan.validate),
-         "--device and --validate do not go with --backend cpu"},
+        {cpu && (options->vulkan.device || options->vulkan.validate || options->shaders.path),
+         "--device, --shaders and --validate do not go with --backend cpu"},
         {cpu && command == COMMAND_CHECK && !against, "check --backend cpu needs --against double or quad"},
         {against && options->has_tolerance,
          "--tolerance does not go with --against, which derives a bound for every pixel"},
         {against && options->job.has_max_error,
          "--max-error does not go with --against, which judges rounding alone"},
-        {options->heatmap && scenes > 1, "--heatmap takes one scene file"},
-        {options->heatmap && !(suffix && strcasecmp(suffix, ".png") == 0), "--heatmap writes a .png"},
+        {heatmap_file && scenes > 1,
+         "--heatmap FILE.png takes one scene file; for several name a folder, DIR/"},
+        {heatmap_file && !(suffix && strcasecmp(suffix, ".png") == 0),
+         "--heatmap takes FILE.png or a folder, DIR/"},
     };
     for (size_t i = 0; i < sizeof rules / sizeof *rules; ++i)
         if (rules[i].is_so) {
@@ -145,14 +156,20 @@ static enum status check_consistency(const struct options *options)
 /* Whether all outputs can be written, before anything is computed. */
 static enum status check_outputs(const struct options *options)
 {
-    const char *const paths[] = {options->stats, options->json, options->heatmap, options->report,
-                                 options->csv};
+    const bool folder = options_heatmap_folder(options);
+    const char *const paths[] = {options->stats,  options->json,
+                                 options->junit,  folder ? NULL : options->heatmap,
+                                 options->report, options->csv};
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
         status = image_write_check(options->outputs[i]);
     for (size_t i = 0; i < sizeof paths / sizeof *paths && status == STATUS_DONE; ++i)
         if (paths[i])
             status = output_file_check(paths[i]);
+    if (status == STATUS_DONE && folder && mkdir(options->heatmap, 0777) != 0 && errno != EEXIST) {
+        log_error("%s: cannot make the folder: %s", options->heatmap, strerror(errno));
+        status = STATUS_UNABLE;
+    }
     return status;
 }
 
@@ -176,10 +193,18 @@ enum status command_line_read(int argc, char **argv, struct options *options)
         return status;
     log_set_verbosity(options->job.plan.quiet ? -1 : options->verbose ? 1 : 0);
     options->job.plan.count_rays = options->stats != NULL;
+    if (options->shaders.path && options->command != COMMAND_WATCH) /* which follows its files */
+        options->job.plan.shaders = &options->shaders;
     if (options->command == COMMAND_WATCH && options->output_count == 0)
         options->window = options->window || getenv("DISPLAY") || getenv("WAYLAND_DISPLAY");
     status = check_consistency(options);
     if (status == STATUS_DONE && options->command == COMMAND_PIXEL)
         status = read_place(options);
     return status == STATUS_DONE ? check_outputs(options) : status;
+}
+
+void options_destroy(struct options *options)
+{
+    free(options->outputs);
+    shader_folder_destroy(&options->shaders);
 }
