@@ -99,9 +99,9 @@ impossible_together() {
     refused 2 '--device and --validate' render --validate --backend cpu "$figure"
     refused 2 '--precision quad' watch --precision quad -o a.png "$figure"
     (unset DISPLAY WAYLAND_DISPLAY; refused 2 'watch needs -o FILE where there is no display' watch "$figure") || exit 1
-    refused 2 '--heatmap takes one scene' check --heatmap a.png "$figure" "$figure"
+    refused 2 '--heatmap FILE.png takes one scene' check --heatmap a.png "$figure" "$figure"
     for heatmap in a.exr a.txt a png; do
-        refused 2 '--heatmap writes a .png' check --heatmap $heatmap "$figure"
+        refused 2 '--heatmap takes FILE.png or a folder' check --heatmap $heatmap "$figure"
     done
     only_files
 }
