@@ -1,8 +1,10 @@
 #include "cli/options.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/clock.h"
 #include "check/heatmap.h"
@@ -162,6 +164,10 @@ enum status command_check(const struct options *options)
 {
     struct check check = {.options = options};
     enum status status = STATUS_DONE;
+    if (options_heatmap_folder(options) && mkdir(options->heatmap, 0777) != 0 && errno != EEXIST) {
+        log_error("%s: cannot make the folder: %s", options->heatmap, strerror(errno));
+        return STATUS_UNABLE;
+    }
     if (options->backend == BACKEND_VULKAN)
         status = vulkan_context_create(&options->vulkan, &check.context);
     if (status != STATUS_DONE)

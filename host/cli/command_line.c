@@ -1,8 +1,6 @@
-#include <errno.h>
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/output_file.h"
 #include "cli/option_table.h"
@@ -156,9 +154,8 @@ static enum status check_consistency(const struct options *options)
 /* Whether all outputs can be written, before anything is computed. */
 static enum status check_outputs(const struct options *options)
 {
-    const bool folder = options_heatmap_folder(options);
     const char *const paths[] = {options->stats,  options->json,
-                                 options->junit,  folder ? NULL : options->heatmap,
+                                 options->junit,  options_heatmap_folder(options) ? NULL : options->heatmap,
                                  options->report, options->csv};
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
@@ -166,10 +163,6 @@ static enum status check_outputs(const struct options *options)
     for (size_t i = 0; i < sizeof paths / sizeof *paths && status == STATUS_DONE; ++i)
         if (paths[i])
             status = output_file_check(paths[i]);
-    if (status == STATUS_DONE && folder && mkdir(options->heatmap, 0777) != 0 && errno != EEXIST) {
-        log_error("%s: cannot make the folder: %s", options->heatmap, strerror(errno));
-        status = STATUS_UNABLE;
-    }
     return status;
 }
 

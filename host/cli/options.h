@@ -52,7 +52,7 @@ struct options {
  */
 enum status command_line_read(int argc, char **argv, struct options *options);
 
-/* Whether --heatmap names a folder, which is there then. */
+/* Whether --heatmap names a folder. */
 bool options_heatmap_folder(const struct options *options);
 
 void options_destroy(struct options *options);
