@@ -22,7 +22,7 @@ endfunction()
 add_cli_tests(usage no_command unknown_command unknown_option missing_argument value_like_an_option size numbers crop
               crop_outside option_of_another_command choices impossible_together several_scenes help_and_version
               manual_page completion)
-add_cli_tests(input missing_scene folder_as_scene bad_scene bad_scene_among_good_ones scene_that_is_warned_of)
+add_cli_tests(input missing_scene scene_by_name folder_as_scene bad_scene bad_scene_among_good_ones scene_that_is_warned_of)
 add_cli_tests(spheres bad_files arrays)
 if(VKWHITTED_TESTS STREQUAL "all")
     add_cli_tests(spheres rows_as_objects names_of_rows)
@@ -34,7 +34,7 @@ add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validati
 if(VKWHITTED_TESTS STREQUAL "all")
     add_cli_tests(pretend failing_calls agreement_as_graphics_card dispatch_sizes agreement_with_long_vectors)
 endif()
-add_cli_tests(check agreement difference tolerance allow heatmap json)
+add_cli_tests(check agreement difference tolerance allow heatmap json junit)
 add_cli_tests(bench without_device bad_comparison options interrupted)
 add_cli_tests(pixel against json light_samples place)
 if(VKWHITTED_TESTS STREQUAL "all")

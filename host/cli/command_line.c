@@ -1,9 +1,11 @@
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/output_file.h"
 #include "cli/option_table.h"
+#include "cli/scene_name.h"
 
 static enum status read_command(const char *name, struct options *options)
 {
@@ -119,7 +121,6 @@ static enum status check_consistency(const struct options *options)
         const char *problem;
     } rules[] = {
         {command == COMMAND_DEVICES && scenes > 0, "devices takes no scene"},
-        {command != COMMAND_DEVICES && scenes == 0, "expected a scene file"},
         {command == COMMAND_RENDER && scenes > 1, "render takes one scene file"},
         {command == COMMAND_WATCH && scenes > 1, "watch takes one scene file"},
         {command == COMMAND_WATCH && options->output_count == 0 && !options->window,
@@ -151,6 +152,34 @@ static enum status check_consistency(const struct options *options)
     return STATUS_DONE;
 }
 
+/* Says that this was given, or where it is NULL nothing, in the place of a scene. */
+static enum status refuse_scene(const char *name)
+{
+    char *list = scene_name_list();
+    log_error("%s%sexpected %s", name ? name : "", name ? ": no such scene; " : "",
+              list ? list : "a scene file");
+    free(list);
+    return STATUS_REFUSED;
+}
+
+/* Puts the paths of the program's scenes in the place of their names. What is neither a path nor such a name
+ * is refused. */
+static enum status find_scenes(struct options *options)
+{
+    char **found = options->found;
+    if (options->command != COMMAND_DEVICES && options->scene_count == 0)
+        return refuse_scene(NULL);
+    for (size_t i = 0; i < options->scene_count; ++i) {
+        char **scene = &options->scenes[i];
+        *found = scene_name_find(*scene);
+        if (*found)
+            *scene = *found++;
+        else if (!strpbrk(*scene, "/.") && access(*scene, F_OK) != 0)
+            return refuse_scene(*scene);
+    }
+    return STATUS_DONE;
+}
+
 /* Whether all outputs can be written, before anything is computed. */
 static enum status check_outputs(const struct options *options)
 {
@@ -170,7 +199,8 @@ enum status command_line_read(int argc, char **argv, struct options *options)
 {
     *options = (struct options){.argc = argc, .argv = argv, .job = {.max_bounces = -1, .samples = 1}};
     options->outputs = calloc((size_t)argc, sizeof *options->outputs);
-    if (!options->outputs) {
+    options->found = calloc((size_t)argc, sizeof *options->found);
+    if (!options->outputs || !options->found) {
         log_error("no memory for the command line");
         return STATUS_UNABLE;
     }
@@ -193,11 +223,16 @@ enum status command_line_read(int argc, char **argv, struct options *options)
     status = check_consistency(options);
     if (status == STATUS_DONE && options->command == COMMAND_PIXEL)
         status = read_place(options);
+    if (status == STATUS_DONE)
+        status = find_scenes(options);
     return status == STATUS_DONE ? check_outputs(options) : status;
 }
 
 void options_destroy(struct options *options)
 {
+    for (char **found = options->found; found && *found; ++found)
+        free(*found);
+    free(options->found);
     free(options->outputs);
     shader_folder_destroy(&options->shaders);
 }

@@ -23,8 +23,9 @@ struct options {
     enum command_id command;
     int argc;
     char **argv;
-    char **scenes; /* paths */
+    char **scenes; /* paths; of argv or of `found` */
     size_t scene_count;
+    char **found;         /* paths of scenes given by name, NULL behind the last */
     const char **outputs; /* -o */
     size_t output_count;
     struct vulkan_options vulkan;

@@ -44,6 +44,30 @@ heatmap() {
     only_files broken.png same.png also_same.png
 }
 
+# valid_junit TESTS FAILURES ERRORS: so a.xml says, and it is what readers of JUnit's XML expect.
+valid_junit() {
+    expect 0 xmllint --noout --relaxng "$SOURCE_DIR/tests/cli/junit.rng" a.xml
+    said "tests=\"$1\" failures=\"$2\" errors=\"$3\"" a.xml
+}
+
+junit() {
+    local odd='a<b>&"'\''.yaml'
+    cp "$figure" "$odd"
+    cp "$figure" $'b\xff\x01\u20ac.yaml'
+    expect 0 "$VKWHITTED" check $small --junit a.xml "$odd" $'b\xff\x01\u20ac.yaml'
+    valid_junit 2 0 0
+    [ "$(xmllint --xpath 'string(//testcase[1]/@name)' a.xml)" = "$odd" ] || fail 'the name'
+    [ "$(xmllint --xpath 'string(//testcase[2]/@name)' a.xml)" = $'b??\u20ac.yaml' ] || fail 'the name that is not UTF-8'
+    expect 2 broken check $small --junit a.xml --heatmap maps/ "$odd" no.yaml
+    valid_junit 2 1 1
+    [ "$(xmllint --xpath 'string(//failure/@message)' a.xml | tr 0-9 _ | tr -s _)" = \
+        "_ pixels differ, the first at (_, _), the largest error _._e-_ at (_, _); heatmap: maps/${odd%.yaml}.png" ] || fail 'the failure'
+    [ "$(ls maps)" = "${odd%.yaml}.png" ] || fail 'the heatmap'
+    expect 1 broken check $small --against double --junit a.xml --heatmap maps/ "$figure"
+    valid_junit 1 1 0
+    said 'message="[0-9]+ pixels unexplained, the first at \([0-9]+, [0-9]+\); heatmap: maps/.*-scenes-figure_4.png"' a.xml
+}
+
 json_is() { local expected=$1; shift; [ "$(json "$@")" = "$expected" ] || fail "$* is $(json "$@"), expected $expected"; }
 
 json_fields() {
