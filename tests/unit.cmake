@@ -10,6 +10,8 @@ endfunction()
 
 add_unit_test(bench)
 target_link_options(unit_bench PRIVATE -Wl,--wrap=calloc,--wrap=malloc) # to have them fail
+add_unit_test(building)
+target_link_options(unit_building PRIVATE -Wl,--wrap=clock_ms) # to have time fly
 add_unit_test(camera_motion)
 add_unit_test(compare)
 add_unit_test(fit)
@@ -49,7 +51,7 @@ if(CMAKE_C_COMPILER_ID MATCHES Clang AND NOT VKWHITTED_SANITIZE)
     target_include_directories(fuzz_scene_file PRIVATE ${PROJECT_SOURCE_DIR}/host)
     target_compile_options(fuzz_scene_file PRIVATE -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all)
     target_link_options(fuzz_scene_file PRIVATE -fsanitize=fuzzer,address,undefined)
-    target_link_libraries(fuzz_scene_file PRIVATE scene_layout OpenMP::OpenMP_C PkgConfig::jansson PkgConfig::libfyaml m)
+    target_link_libraries(fuzz_scene_file PRIVATE reference OpenMP::OpenMP_C PkgConfig::jansson PkgConfig::libfyaml m)
     file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/fuzz_corpus)
     add_test(NAME unit/fuzz_scene_file/20000_runs
              COMMAND fuzz_scene_file -runs=20000 -seed=1 -close_fd_mask=2
