@@ -13,7 +13,8 @@ static enum status choose_window(const struct picture_settings *settings, struct
     return STATUS_REFUSED;
 }
 
-enum status job_create_from(const struct job_options *options, struct scene *scene, struct job *job)
+enum status job_create_from(const struct job_options *options, const struct packed_scene *other,
+                            struct scene *scene, struct job *job)
 {
     *job = (struct job){.scene = *scene};
     *scene = (struct scene){0};
@@ -31,7 +32,7 @@ enum status job_create_from(const struct job_options *options, struct scene *sce
     job->plan.scene = &job->packed;
     enum status status = choose_window(&settings, &job->plan.window);
     if (status == STATUS_DONE)
-        status = pack_scene(scene, &settings, &job->packed);
+        status = pack_scene_beside(other, scene, &settings, &job->packed);
     if (status != STATUS_DONE)
         job_destroy(job);
     return status;
@@ -45,7 +46,7 @@ enum status job_create(const struct job_options *options, const char *scene_path
     if (status != STATUS_DONE)
         return status;
     scene_warn(&scene);
-    return job_create_from(options, &scene, job);
+    return job_create_from(options, NULL, &scene, job);
 }
 
 void job_destroy(struct job *job)
