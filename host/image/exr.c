@@ -1,18 +1,48 @@
 #include <openexr.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/output_file.h"
 #include "image/formats.h"
 
-static const char truncation_channel[] = "truncation_bound";
-
 struct exr_output {
     struct output_file file;
-    const struct image *image;
+    const struct image_rows *rows;
+    const struct image_metadata *metadata;
+    struct window window; /* of the picture, that the rows are */
+    struct strips strips;
     exr_context_t context;
     exr_encode_pipeline_t pipeline;
+    float *values;      /* of a chunk */
+    enum status status; /* of the rows */
 };
+
+/* Colours and bounds are parts of the file: readers take a channel beside R, G and B for alpha (OpenImageIO).
+ * So are rows that do not lie together. */
+struct part {
+    bool truncation;
+    unsigned first;       /* of the rows */
+    struct window window; /* where they lie */
+};
+
+static int parts_of_a_kind(const struct exr_output *output)
+{
+    const unsigned rows = output->strips.rows, height = output->window.height;
+    return rows > 0 ? (int)((height + rows - 1) / rows) : 1;
+}
+
+static struct part get_part(const struct exr_output *output, int index)
+{
+    const int of_a_kind = parts_of_a_kind(output);
+    const unsigned first = (unsigned)(index % of_a_kind) * output->strips.rows;
+    return (struct part){index >= of_a_kind, first, window_strip(output->window, output->strips, first)};
+}
+
+static int count_parts(const struct exr_output *output)
+{
+    return parts_of_a_kind(output) * (output->rows->bounds_truncation ? 2 : 1);
+}
 
 /* The first thing the library complained of. Its error callback gets no user data where it has no context
  * yet. */
@@ -46,55 +76,109 @@ static bool set_text(exr_context_t context, const char *name, const char *text)
     return !text || succeeded(exr_attr_set_string(context, 0, name, text));
 }
 
-static bool write_header(struct exr_output *output, const struct image_metadata *metadata)
+static exr_attr_box2i_t box_of(const struct window *window)
 {
-    const char *const channels[] = {"B", "G", "R", truncation_channel};
-    exr_context_t context = output->context;
-    int part;
-    if (!succeeded(exr_add_part(context, "picture", EXR_STORAGE_SCANLINE, &part)) ||
-        !succeeded(exr_initialize_required_attr_simple(context, part, (int32_t)output->image->width,
-                                                       (int32_t)output->image->height, EXR_COMPRESSION_ZIP)))
+    exr_attr_box2i_t box;
+    box.min.x = (int32_t)window->x;
+    box.min.y = (int32_t)window->y;
+    box.max.x = (int32_t)(window->x + window->width) - 1;
+    box.max.y = (int32_t)(window->y + window->height) - 1;
+    return box;
+}
+
+static bool add_part(const struct exr_output *output, int index)
+{
+    const struct part part = get_part(output, index);
+    const struct image_metadata *metadata = output->metadata;
+    const bool whole = metadata->picture_width == 0;
+    const exr_attr_box2i_t data = box_of(&part.window);
+    const exr_attr_box2i_t display = box_of(
+        whole ? &output->window : &(struct window){0, 0, metadata->picture_width, metadata->picture_height});
+    const exr_attr_v2f_t center = {.x = 0, .y = 0};
+    char name[32];
+    int at, number = index % parts_of_a_kind(output);
+    snprintf(name, sizeof name, number == 0 ? "%s" : "%s %d", part.truncation ? "truncation" : "picture",
+             number + 1);
+    if (!succeeded(exr_add_part(output->context, name, EXR_STORAGE_SCANLINE, &at)) ||
+        !succeeded(exr_initialize_required_attr(output->context, at, &display, &data, 1, &center, 1,
+                                                EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP)))
         return false;
-    for (int c = 0; c < (output->image->truncation ? 4 : 3); ++c)
-        if (!succeeded(
-                exr_add_channel(context, part, channels[c], EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LINEAR, 1, 1)))
+    static const char *const channels[] = {"truncation_bound", "B", "G", "R"};
+    for (int c = part.truncation ? 0 : 1; c < (part.truncation ? 1 : 4); ++c)
+        if (!succeeded(exr_add_channel(output->context, at, channels[c], EXR_PIXEL_FLOAT,
+                                       EXR_PERCEPTUALLY_LINEAR, 1, 1)))
+            return false;
+    return true;
+}
+
+static bool write_header(const struct exr_output *output)
+{
+    const struct image_metadata *metadata = output->metadata;
+    exr_context_t context = output->context;
+    for (int i = 0; i < count_parts(output); ++i)
+        if (!add_part(output, i))
             return false;
     return set_text(context, "scene", metadata->scene) && set_text(context, "device", metadata->device) &&
            set_text(context, "precision", metadata->precision) &&
-           succeeded(exr_attr_set_int(context, part, "maxBounces", (int32_t)metadata->max_bounces)) &&
+           set_text(context, "settings", metadata->settings) &&
+           set_text(context, "digest", metadata->digest) && set_text(context, "tile", metadata->tile) &&
+           succeeded(exr_attr_set_int(context, 0, "maxBounces", (int32_t)metadata->max_bounces)) &&
            succeeded(exr_write_header(context));
 }
 
-/* Tells where the channel's values lie from row y on. */
-static void point_to_channel(const struct image *image, int y, exr_coding_channel_info_t *channel)
+/* Gathers the rows of a chunk. */
+static bool read_rows(struct exr_output *output, bool truncation, unsigned first, unsigned count)
 {
-    const char *name = channel->channel_name;
-    bool is_color = strcmp(name, truncation_channel) != 0;
-    size_t stride = is_color ? 3 : 1, offset = name[0] == 'G' ? 1 : name[0] == 'B' ? 2 : 0;
-    const float *values = is_color ? image->rgb + offset : image->truncation;
-    channel->encode_from_ptr = (const uint8_t *)(values + (size_t)y * image->width * stride);
-    channel->user_pixel_stride = (int32_t)(stride * sizeof(float));
-    channel->user_line_stride = (int32_t)(image->width * stride * sizeof(float));
+    const size_t values = (size_t)output->rows->width * (truncation ? 1 : 3);
+    for (unsigned i = 0; i < count && output->status == STATUS_DONE; ++i) {
+        const float *row;
+        output->status = output->rows->read(output->rows->context, first + i, truncation, &row);
+        if (output->status == STATUS_DONE)
+            memcpy(output->values + i * values, row, values * sizeof *row);
+    }
+    return output->status == STATUS_DONE;
 }
 
-/* Writes the chunk of rows that starts at y. */
-static bool write_chunk(struct exr_output *output, int y)
+/* Writes the chunk of a part that begins with its row y. */
+static bool write_chunk(struct exr_output *output, int index, const struct part *part, unsigned y)
 {
     exr_encode_pipeline_t *pipeline = &output->pipeline;
+    const bool is_first = y == 0;
     exr_chunk_info_t chunk;
-    if (!succeeded(exr_write_scanline_chunk_info(output->context, 0, y, &chunk)))
+    if (!succeeded(
+            exr_write_scanline_chunk_info(output->context, index, (int)(part->window.y + y), &chunk)) ||
+        !read_rows(output, part->truncation, part->first + y, (unsigned)chunk.height))
         return false;
-
-    if (!succeeded(y == 0 ? exr_encoding_initialize(output->context, 0, &chunk, pipeline)
-                          : exr_encoding_update(output->context, 0, &chunk, pipeline)))
+    if (!succeeded(is_first ? exr_encoding_initialize(output->context, index, &chunk, pipeline)
+                            : exr_encoding_update(output->context, index, &chunk, pipeline)))
         return false;
-    for (int c = 0; c < pipeline->channel_count; c++)
-        point_to_channel(output->image, y, &pipeline->channels[c]);
-    return (y > 0 || succeeded(exr_encoding_choose_default_routines(output->context, 0, pipeline))) &&
-           succeeded(exr_encoding_run(output->context, 0, pipeline));
+    const int32_t count = pipeline->channel_count;
+    for (int32_t c = 0; c < count; c++) { /* of B, G, R */
+        exr_coding_channel_info_t *channel = &pipeline->channels[c];
+        channel->encode_from_ptr = (const uint8_t *)(output->values + (count - 1 - c));
+        channel->user_pixel_stride = count * (int32_t)sizeof(float);
+        channel->user_line_stride = (int32_t)output->rows->width * channel->user_pixel_stride;
+    }
+    return (!is_first || succeeded(exr_encoding_choose_default_routines(output->context, index, pipeline))) &&
+           succeeded(exr_encoding_run(output->context, index, pipeline));
 }
 
-static bool encode(struct exr_output *output, const struct image_metadata *metadata)
+static bool write_part(struct exr_output *output, int index)
+{
+    const struct part part = get_part(output, index);
+    int32_t rows_per_chunk = 0;
+    bool written = succeeded(exr_get_scanlines_per_chunk(output->context, index, &rows_per_chunk));
+    if (!output->values) /* colours come first */
+        output->values = malloc((size_t)rows_per_chunk * output->rows->width * 3 * sizeof *output->values);
+    written = written && output->values;
+    for (unsigned y = 0; written && y < part.window.height; y += (unsigned)rows_per_chunk)
+        written = write_chunk(output, index, &part, y);
+    exr_encoding_destroy(output->context, &output->pipeline);
+    output->pipeline = (exr_encode_pipeline_t)EXR_ENCODE_PIPELINE_INITIALIZER;
+    return written;
+}
+
+static bool encode(struct exr_output *output)
 {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     initializer.error_handler_fn = on_error;
@@ -104,28 +188,29 @@ static bool encode(struct exr_output *output, const struct image_metadata *metad
     if (!succeeded(
             exr_start_write(&output->context, output->file.path, EXR_WRITE_FILE_DIRECTLY, &initializer)))
         return false;
-
-    int32_t rows_per_chunk = 0;
-    bool written = write_header(output, metadata) &&
-                   succeeded(exr_get_scanlines_per_chunk(output->context, 0, &rows_per_chunk));
-    for (int64_t y = 0; written && y < output->image->height; y += rows_per_chunk)
-        written = write_chunk(output, (int)y);
-    exr_encoding_destroy(output->context, &output->pipeline);
+    bool written = write_header(output);
+    for (int i = 0; written && i < count_parts(output); ++i)
+        written = write_part(output, i);
+    free(output->values);
     return succeeded(exr_finish(&output->context)) && written;
 }
 
-enum status image_write_exr(const struct image *image, const char *path,
+enum status image_write_exr(const struct image_rows *rows, const char *path,
                             const struct image_metadata *metadata)
 {
-    struct exr_output output = {.image = image};
+    struct exr_output output = {
+        .rows = rows, .metadata = metadata, .window = metadata->window, .strips = metadata->strips};
+    if (output.window.width == 0)
+        output.window = (struct window){.width = rows->width, .height = rows->height};
     enum status status = output_file_open(path, &output.file);
     if (status != STATUS_DONE)
         return status;
 
     problem[0] = '\0';
-    if (encode(&output, metadata) || output.file.error != 0)
+    if (encode(&output) || output.file.error != 0)
         return output_file_commit(&output.file);
-    log_error("%s: cannot write EXR: %s", path, problem);
+    if (output.status == STATUS_DONE)
+        log_error("%s: cannot write EXR: %s", path, problem[0] ? problem : "no memory");
     output_file_abandon(&output.file);
-    return STATUS_UNABLE;
+    return output.status == STATUS_DONE ? STATUS_UNABLE : output.status;
 }
