@@ -1,9 +1,9 @@
-#include <openexr.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/output_file.h"
+#include "image/exr_error.h"
 #include "image/formats.h"
 
 struct exr_output {
@@ -44,17 +44,6 @@ static int count_parts(const struct exr_output *output)
     return parts_of_a_kind(output) * (output->rows->bounds_truncation ? 2 : 1);
 }
 
-/* The first thing the library complained of. Its error callback gets no user data where it has no context
- * yet. */
-static _Thread_local char problem[256];
-
-static void on_error(exr_const_context_t context, exr_result_t result, const char *message)
-{
-    (void)context;
-    if (problem[0] == '\0')
-        snprintf(problem, sizeof problem, "%s", message ? message : exr_get_default_error_message(result));
-}
-
 static int64_t on_write(exr_const_context_t context, void *user_data, const void *bytes, uint64_t size,
                         uint64_t offset, exr_stream_error_func_ptr_t report_error)
 {
@@ -64,16 +53,9 @@ static int64_t on_write(exr_const_context_t context, void *user_data, const void
     return output_file_write_at(&output->file, bytes, (size_t)size, offset) ? (int64_t)size : -1;
 }
 
-static bool succeeded(exr_result_t result)
-{
-    if (result != EXR_ERR_SUCCESS)
-        on_error(NULL, result, NULL);
-    return result == EXR_ERR_SUCCESS;
-}
-
 static bool set_text(exr_context_t context, const char *name, const char *text)
 {
-    return !text || succeeded(exr_attr_set_string(context, 0, name, text));
+    return !text || exr_succeeded(exr_attr_set_string(context, 0, name, text));
 }
 
 static exr_attr_box2i_t box_of(const struct window *window)
@@ -99,14 +81,14 @@ static bool add_part(const struct exr_output *output, int index)
     int at, number = index % parts_of_a_kind(output);
     snprintf(name, sizeof name, number == 0 ? "%s" : "%s %d", part.truncation ? "truncation" : "picture",
              number + 1);
-    if (!succeeded(exr_add_part(output->context, name, EXR_STORAGE_SCANLINE, &at)) ||
-        !succeeded(exr_initialize_required_attr(output->context, at, &display, &data, 1, &center, 1,
-                                                EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP)))
+    if (!exr_succeeded(exr_add_part(output->context, name, EXR_STORAGE_SCANLINE, &at)) ||
+        !exr_succeeded(exr_initialize_required_attr(output->context, at, &display, &data, 1, &center, 1,
+                                                    EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP)))
         return false;
     static const char *const channels[] = {"truncation_bound", "B", "G", "R"};
     for (int c = part.truncation ? 0 : 1; c < (part.truncation ? 1 : 4); ++c)
-        if (!succeeded(exr_add_channel(output->context, at, channels[c], EXR_PIXEL_FLOAT,
-                                       EXR_PERCEPTUALLY_LINEAR, 1, 1)))
+        if (!exr_succeeded(exr_add_channel(output->context, at, channels[c], EXR_PIXEL_FLOAT,
+                                           EXR_PERCEPTUALLY_LINEAR, 1, 1)))
             return false;
     return true;
 }
@@ -122,8 +104,8 @@ static bool write_header(const struct exr_output *output)
            set_text(context, "precision", metadata->precision) &&
            set_text(context, "settings", metadata->settings) &&
            set_text(context, "digest", metadata->digest) && set_text(context, "tile", metadata->tile) &&
-           succeeded(exr_attr_set_int(context, 0, "maxBounces", (int32_t)metadata->max_bounces)) &&
-           succeeded(exr_write_header(context));
+           exr_succeeded(exr_attr_set_int(context, 0, "maxBounces", (int32_t)metadata->max_bounces)) &&
+           exr_succeeded(exr_write_header(context));
 }
 
 /* Gathers the rows of a chunk. */
@@ -145,12 +127,12 @@ static bool write_chunk(struct exr_output *output, int index, const struct part 
     exr_encode_pipeline_t *pipeline = &output->pipeline;
     const bool is_first = y == 0;
     exr_chunk_info_t chunk;
-    if (!succeeded(
+    if (!exr_succeeded(
             exr_write_scanline_chunk_info(output->context, index, (int)(part->window.y + y), &chunk)) ||
         !read_rows(output, part->truncation, part->first + y, (unsigned)chunk.height))
         return false;
-    if (!succeeded(is_first ? exr_encoding_initialize(output->context, index, &chunk, pipeline)
-                            : exr_encoding_update(output->context, index, &chunk, pipeline)))
+    if (!exr_succeeded(is_first ? exr_encoding_initialize(output->context, index, &chunk, pipeline)
+                                : exr_encoding_update(output->context, index, &chunk, pipeline)))
         return false;
     const int32_t count = pipeline->channel_count;
     for (int32_t c = 0; c < count; c++) { /* of B, G, R */
@@ -159,15 +141,16 @@ static bool write_chunk(struct exr_output *output, int index, const struct part 
         channel->user_pixel_stride = count * (int32_t)sizeof(float);
         channel->user_line_stride = (int32_t)output->rows->width * channel->user_pixel_stride;
     }
-    return (!is_first || succeeded(exr_encoding_choose_default_routines(output->context, index, pipeline))) &&
-           succeeded(exr_encoding_run(output->context, index, pipeline));
+    return (!is_first ||
+            exr_succeeded(exr_encoding_choose_default_routines(output->context, index, pipeline))) &&
+           exr_succeeded(exr_encoding_run(output->context, index, pipeline));
 }
 
 static bool write_part(struct exr_output *output, int index)
 {
     const struct part part = get_part(output, index);
     int32_t rows_per_chunk = 0;
-    bool written = succeeded(exr_get_scanlines_per_chunk(output->context, index, &rows_per_chunk));
+    bool written = exr_succeeded(exr_get_scanlines_per_chunk(output->context, index, &rows_per_chunk));
     if (!output->values) /* colours come first */
         output->values = malloc((size_t)rows_per_chunk * output->rows->width * 3 * sizeof *output->values);
     written = written && output->values;
@@ -181,18 +164,18 @@ static bool write_part(struct exr_output *output, int index)
 static bool encode(struct exr_output *output)
 {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    initializer.error_handler_fn = on_error;
+    initializer.error_handler_fn = exr_error_keep;
     initializer.user_data = output;
     initializer.write_fn = on_write;
     initializer.zip_level = 1; /* level 6 takes 20 % longer for 1 % of the size: mantissas are noise */
-    if (!succeeded(
+    if (!exr_succeeded(
             exr_start_write(&output->context, output->file.path, EXR_WRITE_FILE_DIRECTLY, &initializer)))
         return false;
     bool written = write_header(output);
     for (int i = 0; written && i < count_parts(output); ++i)
         written = write_part(output, i);
     free(output->values);
-    return succeeded(exr_finish(&output->context)) && written;
+    return exr_succeeded(exr_finish(&output->context)) && written;
 }
 
 enum status image_write_exr(const struct image_rows *rows, const char *path,
@@ -206,11 +189,11 @@ enum status image_write_exr(const struct image_rows *rows, const char *path,
     if (status != STATUS_DONE)
         return status;
 
-    problem[0] = '\0';
+    exr_error_clear();
     if (encode(&output) || output.file.error != 0)
         return output_file_commit(&output.file);
     if (output.status == STATUS_DONE)
-        log_error("%s: cannot write EXR: %s", path, problem[0] ? problem : "no memory");
+        log_error("%s: cannot write EXR: %s", path, exr_error());
     output_file_abandon(&output.file);
     return output.status == STATUS_DONE ? STATUS_UNABLE : output.status;
 }
