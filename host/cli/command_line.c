@@ -108,6 +108,14 @@ bool options_heatmap_folder(const struct options *options)
     return length > 0 && options->heatmap[length - 1] == '/';
 }
 
+static bool writes_only_exr(const struct options *options)
+{
+    for (size_t i = 0; i < options->output_count; ++i)
+        if (image_format_of(options->outputs[i]) != IMAGE_FORMAT_EXR)
+            return false;
+    return true;
+}
+
 static enum status check_consistency(const struct options *options)
 {
     enum command_id command = options->command;
@@ -121,6 +129,8 @@ static enum status check_consistency(const struct options *options)
         const char *problem;
     } rules[] = {
         {command == COMMAND_DEVICES && scenes > 0, "devices takes no scene"},
+        {command == COMMAND_JOIN && scenes == 0, "join takes the files of a picture's tiles"},
+        {command == COMMAND_JOIN && options->output_count == 0, "join needs -o FILE"},
         {command == COMMAND_RENDER && scenes > 1, "render takes one scene file"},
         {command == COMMAND_WATCH && scenes > 1, "watch takes one scene file"},
         {command == COMMAND_WATCH && options->output_count == 0 && !options->window,
@@ -143,6 +153,7 @@ static enum status check_consistency(const struct options *options)
          "--heatmap FILE.png takes one scene file; for several name a folder, DIR/"},
         {heatmap_file && !(suffix && strcasecmp(suffix, ".png") == 0),
          "--heatmap takes FILE.png or a folder, DIR/"},
+        {options->job.tile.count > 0 && !writes_only_exr(options), "--tile writes .exr"},
     };
     for (size_t i = 0; i < sizeof rules / sizeof *rules; ++i)
         if (rules[i].is_so) {
@@ -167,7 +178,9 @@ static enum status refuse_scene(const char *name)
 static enum status find_scenes(struct options *options)
 {
     char **found = options->found;
-    if (options->command != COMMAND_DEVICES && options->scene_count == 0)
+    if (options->command == COMMAND_DEVICES || options->command == COMMAND_JOIN)
+        return STATUS_DONE;
+    if (options->scene_count == 0)
         return refuse_scene(NULL);
     for (size_t i = 0; i < options->scene_count; ++i) {
         char **scene = &options->scenes[i];

@@ -10,6 +10,7 @@
 
 enum command_id {
     COMMAND_RENDER,
+    COMMAND_JOIN,
     COMMAND_CHECK,
     COMMAND_WATCH,
     COMMAND_BENCH,
@@ -23,7 +24,7 @@ struct options {
     enum command_id command;
     int argc;
     char **argv;
-    char **scenes; /* paths; of argv or of `found` */
+    char **scenes; /* paths, of argv or of `found`; of tiles for join */
     size_t scene_count;
     char **found;         /* paths of scenes given by name, NULL behind the last */
     const char **outputs; /* -o */
@@ -65,6 +66,7 @@ void help_print_version(void);
 /* What is reported on standard output and error, and what the exit status means, stands in the manual page.
  */
 enum status command_render(const struct options *options);
+enum status command_join(const struct options *options);
 enum status command_check(const struct options *options);
 enum status command_watch(const struct options *options);
 enum status command_bench(const struct options *options);
