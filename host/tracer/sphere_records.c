@@ -71,7 +71,6 @@ static void write_sphere(struct writing *writing, uint32_t record, const struct 
     uint32_t *words = writing->sphere_words + (size_t)SPHERE_WORDS * number;
     words[which] = record;
     words[SPHERE_SURFACE] = (uint32_t)sphere->tags.SURFACE;
-    words[SPHERE_ORDER] = (uint32_t)sphere->tags.FILE_ORDER;
 }
 
 /* A record that is no box, and a sphere that is never met. */
