@@ -8,9 +8,10 @@
 static enum status check_pixel(const struct render_plan *plan, const struct image *image, unsigned x,
                                unsigned y, bool *same)
 {
+    const struct window strip = window_strip(plan->window, plan->strips, y);
     struct render_plan one = {
         .scene = plan->scene,
-        .window = {plan->window.x + x, plan->window.y + y, 1, 1},
+        .window = {strip.x + x, strip.y, 1, 1},
         .precision = plan->precision,
         .threads = 1,
         .quiet = true,
@@ -47,7 +48,7 @@ enum status spot_check(const struct render_plan *plan, const struct image *image
             continue;
         log_error("%s: pixel (%u, %u) is not the reference's, although the device's arithmetic seemed exact; "
                   "'vkwhitted check' tells more, --fast renders without a promise",
-                  device, plan->window.x + x, plan->window.y + y);
+                  device, plan->window.x + x, window_strip(plan->window, plan->strips, y).y);
         status = STATUS_UNABLE;
     }
     return status;

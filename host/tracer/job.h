@@ -1,7 +1,7 @@
 #ifndef VKWHITTED_TRACER_JOB_H
 #define VKWHITTED_TRACER_JOB_H
 
-#include "image/image.h"
+#include "image/tile.h"
 #include "scene/pack.h"
 #include "tracer/render.h"
 
@@ -13,6 +13,7 @@ struct job_options {
     unsigned light_samples; /* 0: the scene's */
     bool has_max_error;
     double max_error;        /* linear radiance */
+    struct tile tile;        /* but for what is dealt out; count 0: none */
     struct render_plan plan; /* but for its scene; window of width 0: the whole picture */
 };
 
@@ -21,6 +22,8 @@ struct job {
     struct scene scene;
     struct packed_scene packed;
     struct render_plan plan;
+    struct tile tile; /* of which the plan has the rows; count 0: the plan has the whole */
+    double max_error; /* negative: rays are not left out */
 };
 
 /* Reads and packs the scene. On failure (reported) the job is empty; otherwise the caller frees it. */

@@ -65,7 +65,9 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
         copy_band(plan, band, &picture, image);
         progress_advance(progress, (uint64_t)band.width * (uint64_t)band.height);
     }
-    *rays = picture.rays;
+    rays->primary += picture.rays.primary;
+    rays->secondary += picture.rays.secondary;
+    rays->shadow += picture.rays.shadow;
     free(values);
     return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_DONE;
 }
