@@ -1,5 +1,6 @@
 #include <stdlib.h>
 #include <string.h>
+#include <sys/param.h>
 
 #include "base/clock.h"
 #include "base/interrupt.h"
@@ -45,7 +46,7 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
     struct reference_rays *rays = renderer;
     const struct window *window = &plan->window;
     const int threads = reference_threads(plan->threads);
-    unsigned band_height = 65536 / window->width + (unsigned)threads;
+    const unsigned band_height = MIN(65536 / window->width + (unsigned)threads, window->height);
     size_t band_pixels = (size_t)window->width * band_height;
     double *values = calloc(band_pixels * 4, sizeof *values);
     if (!values) {
