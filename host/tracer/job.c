@@ -27,7 +27,8 @@ static enum status choose_tile(const struct job_options *options, struct job *jo
     return STATUS_REFUSED;
 }
 
-enum status job_create_from(const struct job_options *options, struct scene *scene, struct job *job)
+enum status job_create_from(const struct job_options *options, const struct packed_scene *other,
+                            struct scene *scene, struct job *job)
 {
     *job = (struct job){.scene = *scene};
     *scene = (struct scene){0};
@@ -48,7 +49,7 @@ enum status job_create_from(const struct job_options *options, struct scene *sce
     if (status == STATUS_DONE)
         status = choose_tile(options, job);
     if (status == STATUS_DONE)
-        status = pack_scene(scene, &settings, &job->packed);
+        status = pack_scene_beside(other, scene, &settings, &job->packed);
     if (status != STATUS_DONE)
         job_destroy(job);
     return status;
@@ -62,7 +63,7 @@ enum status job_create(const struct job_options *options, const char *scene_path
     if (status != STATUS_DONE)
         return status;
     scene_warn(&scene);
-    return job_create_from(options, &scene, job);
+    return job_create_from(options, NULL, &scene, job);
 }
 
 void job_destroy(struct job *job)

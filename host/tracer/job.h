@@ -29,8 +29,10 @@ struct job {
 /* Reads and packs the scene. On failure (reported) the job is empty; otherwise the caller frees it. */
 enum status job_create(const struct job_options *options, const char *scene_path, struct job *job);
 
-/* The same for a scene that has been read: the job takes it over, and *scene is empty then. */
-enum status job_create_from(const struct job_options *options, struct scene *scene, struct job *job);
+/* The same for a scene that has been read: the job takes it over, and *scene is empty then. other: another
+ * job's packed scene, see pack_scene_beside(); or NULL. */
+enum status job_create_from(const struct job_options *options, const struct packed_scene *other,
+                            struct scene *scene, struct job *job);
 void job_destroy(struct job *job);
 
 /* Writes the picture of the job, rendered on the device of that name, to each of the files, each whole or not
