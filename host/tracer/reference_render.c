@@ -41,13 +41,37 @@ struct parts {
     int least_height, most_pixels;
 };
 
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* So few pixels that it does not take long, by what is known. */
+static struct parts choose_first(const struct render_plan *plan, int threads)
+{
+    const struct packed_scene *scene = plan->scene;
+    const int width = (int)plan->window.width;
+    const double of_pixel = scene->samples * (1 + (double)scene->light_samples * scene->quad_light_count);
+    const int pixels = of_pixel < 16384 ? (int)(16384 / of_pixel) : 1;
+    const int rows = pixels / width / threads * threads;
+    return (struct parts){
+        .width = rows > 0 ? width : smaller(width, pixels / threads + 1),
+        .height = rows > 0 ? rows : threads,
+        .least_height = threads,
+        .most_pixels = 65536 + threads * width,
+    };
+}
+
+/* Few parts, as threads wait for each other at the end of each. */
 static void choose_next(struct parts *parts, double took_ms, int window_width)
 {
     static const double goal_ms = 100;
-    if (took_ms < goal_ms / 2 && parts->width < window_width)
-        parts->width = parts->width < window_width / 2 ? 2 * parts->width : window_width;
-    else if (took_ms < goal_ms / 2 && 2 * parts->height <= parts->most_pixels / window_width)
-        parts->height *= 2;
+    const int growth = took_ms < goal_ms / 16 ? 8 : took_ms < goal_ms / 2 ? 2 : 1;
+    const int most_rows = parts->most_pixels / window_width / parts->least_height * parts->least_height;
+    if (growth > 1 && parts->width < window_width)
+        parts->width = smaller(growth * parts->width, window_width);
+    else if (growth > 1)
+        parts->height = smaller(growth * parts->height, most_rows);
     else if (took_ms > 2 * goal_ms && parts->height >= 2 * parts->least_height)
         parts->height /= 2;
     else if (took_ms > 2 * goal_ms && parts->width > 1)
@@ -64,9 +88,9 @@ static bool step(struct parts *parts, const struct render_plan *plan)
     if (part->x == right || part->height == 0) {
         const int y = part->height == 0 ? (int)window->y : part->y + part->height;
         *part = (struct reference_window){
-            .x = (int)window->x, .y = y, .height = parts->height < bottom - y ? parts->height : bottom - y};
+            .x = (int)window->x, .y = y, .height = smaller(parts->height, bottom - y)};
     }
-    part->width = parts->width < right - part->x ? parts->width : right - part->x;
+    part->width = smaller(parts->width, right - part->x);
     return part->height > 0;
 }
 
@@ -81,8 +105,7 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
     };
     struct reference_rays *rays = renderer;
     const int threads = reference_threads(plan->threads), width = (int)plan->window.width;
-    struct parts parts = {.width = 1, .height = threads, .least_height = threads};
-    parts.most_pixels = 65536 + threads * width;
+    struct parts parts = choose_first(plan, threads);
     double *values = calloc((size_t)parts.most_pixels * 4, sizeof *values);
     if (!values) {
         log_error("no memory for %d pixels", parts.most_pixels);
