@@ -8,35 +8,7 @@
 
 #include "dielectric.h"
 #include "geometry.h"
-
-static const double unit_roundoff = 0x1p-24; /* float's */
-
-/* What a few operations on quantities of this size lose: the vector formulas here take 4 to 8 roundings of
- * half a unit each. */
-static inline double rounding(double magnitude)
-{
-    return 3 * unit_roundoff * magnitude;
-}
-
-static inline double length(struct vec3 v)
-{
-    return (double)square_root(dot(v, v));
-}
-
-static inline double smaller(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static inline double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
-struct ray_error {
-    double origin;    /* length */
-    double direction; /* radians */
-};
+#include "giant_margin.h"
 
 /* A decision by several conditions that must all hold: if it holds, the weakest condition decides how safe it
  * is; if not, the strongest of those that fail. */
@@ -111,6 +83,11 @@ static inline bool contains(const struct PackedSphere *sphere, struct vec3 point
 static inline double distance_error(const struct packed_scene *scene, const struct ray *ray, int surface,
                                     double distance, struct ray_error error)
 {
+    if (is_giant(scene, surface)) {
+        struct giant giant = giant_of(scene, surface);
+        struct tracked_giant_line line = track_giant_line(&giant, ray->origin, ray->direction, error, true);
+        return giant_distance_error(&giant, &line, ray->surface == surface, distance);
+    }
     if (surface < scene->sphere_count) {
         struct tracked_approach approach =
             track_approach(scene->spheres[surface].center_radius, ray->origin, ray->direction, error);
@@ -122,6 +99,32 @@ static inline double distance_error(const struct packed_scene *scene, const stru
     return (error.origin + distance * error.direction + rounding(size)) / slope;
 }
 
+/* As sphere_margin(), of one that the ray does not leave. */
+static inline double giant_margin(const struct packed_scene *scene, int i, const struct ray *ray,
+                                  struct ray_error error, double nearest_distance, double e_nearest)
+{
+    const bool holds_rays = scene->spheres[i].tags.HOLDS_RAYS != 0;
+    struct giant giant = giant_of(scene, i);
+    struct tracked_giant_line line = track_giant_line(&giant, ray->origin, ray->direction, error, holds_rays);
+    double margin = holds_rays ? fabs(line.height) / line.e_height : INFINITY;
+    if (line.height < 0) { /* certain to be met, at its far side */
+        struct ray other = {ray->origin, ray->direction, NO_SURFACE, false};
+        real distance;
+        bool from_inside;
+        meet_giant(&giant, true, i, &other, &distance, &from_inside);
+        double e_back = giant_distance_error(&giant, &line, false, (double)distance);
+        return smaller(margin, fabs(nearest_distance - (double)distance) / (e_nearest + e_back));
+    }
+    struct conjunction met = conjunction_begin();
+    require_positive(&met, -line.slope, line.e_slope);
+    require_positive(&met, line.root_squared, line.e_root_squared);
+    /* as for planes: 2 height / divisor < nearest_distance */
+    double divisor = line.root - line.slope, e_divisor = line.e_slope + line.e_root;
+    require_positive(&met, nearest_distance * divisor - 2 * line.height,
+                     2 * line.e_height + nearest_distance * e_divisor + e_nearest * fabs(divisor));
+    return smaller(margin, conjunction_margin(&met));
+}
+
 /* Margin of a sphere's not being the nearest hit, which is at nearest_distance +- e_nearest. */
 static inline double sphere_margin(const struct packed_scene *scene, int i, const struct ray *ray,
                                    struct ray_error error, double nearest_distance, double e_nearest)
@@ -129,6 +132,8 @@ static inline double sphere_margin(const struct packed_scene *scene, int i, cons
     const struct PackedSphere *sphere = &scene->spheres[i];
     if (ray->surface == i)
         return INFINITY; /* certain either way */
+    if (is_giant(scene, i))
+        return giant_margin(scene, i, ray, error, nearest_distance, e_nearest);
     struct tracked_approach approach =
         track_approach(sphere->center_radius, ray->origin, ray->direction, error);
     double margin = INFINITY;
@@ -251,6 +256,16 @@ static inline struct hit_error track_hit(const struct packed_scene *scene, const
                                          struct ray_error error, const struct hit *hit)
 {
     double size = length(hit->point);
+    if (is_giant(scene, hit->surface)) {
+        struct giant giant = giant_of(scene, hit->surface);
+        double steepest = longest_gradient(&giant, hit->point);
+        double point = distance_error(scene, ray, hit->surface, (double)hit->distance, error) +
+                       rounding(fabs((double)giant.offset) + size * (1 + steepest));
+        return (struct hit_error){
+            .point = point,
+            .normal = (double)giant.curvature * point + rounding(steepest),
+        };
+    }
     if (hit->surface >= scene->sphere_count)
         return (struct hit_error){
             .point = distance_error(scene, ray, hit->surface, (double)hit->distance, error) + rounding(size),
