@@ -50,6 +50,13 @@ static inline const PackedSurface *body_surface(const struct packed_scene *scene
                                    : &scene->planes[i - scene->sphere_count].surface;
 }
 
+/* Its place in the scene file, where each row of a file of spheres counts. */
+static inline int body_file_order(const struct packed_scene *scene, int i)
+{
+    return i < scene->sphere_count ? scene->spheres[i].tags.FILE_ORDER
+                                   : scene->planes[i - scene->sphere_count].surface.tags.FILE_ORDER;
+}
+
 static inline bool body_is_giant(const struct packed_scene *scene, int i)
 {
     return i < 32 && (scene->giants >> i & 1) != 0;
