@@ -50,13 +50,12 @@ static struct off_pixel look_at(const struct packed_scene *scene, int x, int y)
 }
 
 /* The number of pixels that are off, among those looked at. */
-static size_t find_off_pixels(const struct packed_scene *scene, const struct window *window,
-                              struct off_pixel off[SIDE * SIDE])
+static size_t find_off_pixels(const struct packed_scene *scene, struct off_pixel off[SIDE * SIDE])
 {
     size_t count = 0;
-    for (unsigned i = 0; i < SIDE * SIDE; ++i) {
-        const int x = (int)(window->x + (2 * (i % SIDE) + 1) * (uint64_t)window->width / (2 * SIDE));
-        const int y = (int)(window->y + (2 * (i / SIDE) + 1) * (uint64_t)window->height / (2 * SIDE));
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        const int x = (int)((2 * (i % SIDE) + 1) * (int64_t)scene->width / (2 * SIDE));
+        const int y = (int)((2 * (i / SIDE) + 1) * (int64_t)scene->height / (2 * SIDE));
         if (is_off(scene, x, y))
             off[count++] = look_at(scene, x, y);
     }
@@ -118,23 +117,20 @@ static void warn(const struct job *job, struct off_pixel off, double share)
 enum status float_limit_warn(const struct job *job)
 {
     const struct render_plan *plan = &job->plan;
-    struct reference_scene reference;
+    struct packed_scene scene;
     struct off_pixel off[SIDE * SIDE];
     if (plan->precision != PRECISION_FLOAT)
         return STATUS_DONE;
-    enum status status = reference_scene_create(plan->scene, plan->threads, &reference);
+    enum status status = reference_scene(plan->scene, plan->threads, &scene);
     if (status != STATUS_DONE)
         return status;
-    struct packed_scene *scene = &reference.packed;
-    scene->samples = 1;
-    scene->view.truncation.FIRST_THRESHOLD = 0; /* no ray is left out */
-    scene->max_bounces = scene->max_bounces < MOST_BOUNCES ? scene->max_bounces : MOST_BOUNCES;
-    scene->light_samples =
-        scene->light_samples < MOST_LIGHT_SAMPLES ? scene->light_samples : MOST_LIGHT_SAMPLES;
-    const size_t count = find_off_pixels(scene, &plan->window, off);
+    scene.samples = 1;
+    scene.view.truncation.FIRST_THRESHOLD = 0; /* no ray is left out */
+    scene.max_bounces = scene.max_bounces < MOST_BOUNCES ? scene.max_bounces : MOST_BOUNCES;
+    scene.light_samples = scene.light_samples < MOST_LIGHT_SAMPLES ? scene.light_samples : MOST_LIGHT_SAMPLES;
+    const size_t count = find_off_pixels(&scene, off);
     const struct off_pixel found = most_frequent(off, count);
     if (count > LEAST_OFF && found.surface >= 0)
         warn(job, found, (double)count / (SIDE * SIDE));
-    reference_scene_destroy(&reference);
     return STATUS_DONE;
 }

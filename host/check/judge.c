@@ -106,7 +106,7 @@ struct judged_picture {
     const struct reference_explanation *explanations;
 };
 
-static void encode_row(const void *context, unsigned y, uint8_t *rgb)
+static enum status encode_row(const void *context, unsigned y, uint8_t *rgb)
 {
     const struct judged_picture *picture = context;
     size_t width = picture->image->width;
@@ -116,6 +116,7 @@ static void encode_row(const void *context, unsigned y, uint8_t *rgb)
         viridis(1 + log2(find_errors(picture->image->rgb + 3 * i, exact).relative) / 24, rgb + 3 * x);
         viridis(1 - log2(exact->margin) / 24, rgb + 3 * (width + x));
     }
+    return STATUS_DONE;
 }
 
 enum status judgement_heatmap(const struct image *image, const struct reference_explanation *explanations,

@@ -5,13 +5,6 @@
  * doubles would not tell on which side of the surface the camera is. */
 static const double largest_radius = 0x1p32;
 
-bool giant_is(const struct scene *scene, struct body body)
-{
-    const struct dvec3 camera = dvec3_of(scene->camera.position);
-    return body.is_ball && body.number > GIANT * dvec3_largest(camera) &&
-           body.number > GIANT * fabs(body_distance(body, camera));
-}
-
 struct giant_shape giant_shape_of(struct body giant)
 {
     const double height = giant_height(giant), curvature = 1 / fmin(giant.number, largest_radius);
