@@ -42,6 +42,13 @@ foreach(module IN LISTS device_modules)
     add_unit_test(${module})
     set_tests_properties(unit/${module} PROPERTIES LABELS "unit;device" TIMEOUT 600)
 endforeach()
+
+# Random scenes, judged; by hand for hours: build/tests/fuzz_scenes 0 100000000
+add_executable(fuzz_scenes fuzz_scenes.c)
+target_compile_definitions(fuzz_scenes PRIVATE REFERENCE_BITS=64)
+target_link_libraries(fuzz_scenes PRIVATE vkwhitted_host)
+add_test(NAME unit/fuzz_scenes/2000_cases COMMAND fuzz_scenes 0 2000)
+set_tests_properties(unit/fuzz_scenes/2000_cases PROPERTIES LABELS unit TIMEOUT 300)
 if(CMAKE_C_COMPILER_ID MATCHES Clang AND NOT VKWHITTED_SANITIZE)
     # The host library is compiled a second time, for libFuzzer's counters.
     file(GLOB host_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/host/base/*.c ${PROJECT_SOURCE_DIR}/host/scene/*.c)
