@@ -216,7 +216,10 @@ static inline struct hit_error track_plane_hit(layout_vec4 plane, const struct r
     struct errors point = errors_add(meeting_error(ray, normal, moved),
                                      errors_along(subtract(direction, scale(slope, normal)), e_distance));
     point = errors_add(errors_scale(grown, point), errors_through(1, 1, normal, normal, rounded));
-    point = errors_add(point, errors_along(normal, errors_weigh(normal, errors_of(3, hit->point))));
+    const struct errors off = errors_scale(
+        4 * unit_roundoff, errors_add(rounded, errors_along(direction, e_distance))); /* roundings of those */
+    const double e_residual = errors_weigh(normal, errors_add(errors_of(3, hit->point), off));
+    point = errors_add(point, errors_add(off, errors_along(normal, e_residual)));
     return (struct hit_error){
         .distance = grown * errors_weigh(normal, moved) / size + e_distance,
         .point = errors_add(point, errors_of(1, hit->point)),

@@ -42,6 +42,11 @@ add_broken_program(vkwhitted_broken_total dielectric.glsl "total = !(cos_out_squ
 add_broken_program(vkwhitted_broken_shadow intersect.glsl " && approach.along < distance" "")
 add_broken_program(vkwhitted_broken_normal intersect.glsl "facing_normal = hit.from_inside ? -normal : normal"
                    "facing_normal = intBitsToFloat(floatBitsToInt(hit.from_inside ? -normal : normal) + 1)")
+# As little as `check --against` finds behind a lens.
+add_broken_program(vkwhitted_wrong_k_r dielectric.glsl "return Refraction(total, reflectance,"
+                   "return Refraction(total, reflectance * real(1.0001),")
+add_broken_program(vkwhitted_wrong_normal intersect.glsl "facing_normal = hit.from_inside ? -normal : normal"
+                   "facing_normal = (hit.from_inside ? -normal : normal) * real(1.0001)")
 
 # Wrong in the picture's pipeline, right in the one that records.
 set(half ${CMAKE_CURRENT_BINARY_DIR}/vkwhitted_broken_picture_shader)

@@ -91,7 +91,7 @@ static double coordinate(struct source *source)
     case 0:
         return 3 * uniform(source);
     case 1:
-        return CHOOSE(source, 0, 0, 1e-3, -1e-7, 1e4, 1 + 0x1p-23, -1 - 0x1p-22, 100, 0.1, -0.3);
+        return CHOOSE(source, 0, 0, 1e-3, -1e-7, 1e4, 1e-12, 1 + 0x1p-23, -1 - 0x1p-22, 100, 0.1, -0.3);
     default:
         return CHOOSE(source, 0, 1, -1, 2, -2, 3, 0.5, -0.5, 1.5);
     }
@@ -162,7 +162,7 @@ static void draw_ball(struct sketch *sketch, struct sketch_body *body)
     body->is_ball = true;
     body->radius = sketch->scale * CHOOSE(source, 1, 1, 0.5, 2, 1.5, 0.3, 0.01, 10);
     if (choose(source, 6) == 0)
-        body->radius *= power_of_ten(source, -7, 4);
+        body->radius *= power_of_ten(source, -16, 4);
     body->place = place(sketch);
     if (sketch->body_count == 0 || choose(source, 2))
         return;
@@ -261,7 +261,7 @@ static void draw_scene(const uint8_t *data, size_t size, struct sketch *sketch)
     *sketch = (struct sketch){.source = {.data = data, .left = size}};
     for (size_t i = 0; i < size; ++i)
         sketch->source.random.state = (sketch->source.random.state + data[i]) * UINT64_C(0x9e3779b97f4a7c15);
-    sketch->scale = choose(&sketch->source, 4) ? 1 : power_of_ten(&sketch->source, -9, 9);
+    sketch->scale = choose(&sketch->source, 4) ? 1 : power_of_ten(&sketch->source, -12, 9);
     put_materials(sketch);
     put_bodies(sketch);
     put_lights(sketch);
