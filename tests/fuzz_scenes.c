@@ -54,6 +54,7 @@ struct sketch {
     unsigned body_count;
     unsigned material_count;
     bool glass[MOST_MATERIALS], any_glass;
+    unsigned samples; /* a pixel */
 };
 
 __attribute__((format(printf, 2, 3))) static void put(struct sketch *sketch, const char *format, ...)
@@ -266,11 +267,12 @@ static void draw_scene(const uint8_t *data, size_t size, struct sketch *sketch)
     put_bodies(sketch);
     put_lights(sketch);
     put_camera(sketch);
+    sketch->samples = choose(&sketch->source, 4) ? 1 : 3;
 }
 
 static bool fail(const struct sketch *sketch, const char *what, unsigned x, unsigned y)
 {
-    printf("%s @ (%u, %u) in\n%s\n", what, x, y, sketch->text);
+    printf("%s @ (%u, %u) with --samples %u in\n%s\n", what, x, y, sketch->samples, sketch->text);
     return false;
 }
 
@@ -315,7 +317,7 @@ static bool try_case(const uint8_t *data, size_t size, bool *judged)
     const struct picture_settings settings = {.width = SIDE,
                                               .height = SIDE,
                                               .max_bounces = scene.max_bounces,
-                                              .samples = 1,
+                                              .samples = sketch.samples,
                                               .light_samples = scene.light_samples};
     bool good = true;
     if (pack_scene(&scene, &settings, &packed) == STATUS_DONE) {

@@ -8,7 +8,7 @@
 static const float first_attempt = 16;
 
 /* More than a light of this scene can give, should no better bound be found. */
-static const float unbounded = 0x1p100f;
+static const float unbounded = (float)UNBOUNDED;
 
 /* Added to the bound, so that no charge underflows. */
 static const float darkest = 0x1p-30f;
