@@ -168,9 +168,9 @@ void truncation_pack(struct packed_scene *scene, double max_error)
 
 double truncation_bound(const struct packed_scene *scene, double charges)
 {
-    if (!(charges > 0))
+    if (charges == 0)
         return 0;
-    if (scene->view.truncation.RADIANCE_BOUND == unbounded)
+    if (scene->view.truncation.RADIANCE_BOUND == unbounded || isnan(charges))
         return INFINITY;
     return charges / scene->samples * (1 + slack) +
            rounding(scene, (double)scene->view.truncation.RADIANCE_BOUND);
