@@ -31,19 +31,7 @@ foreach(scene IN LISTS figure_scenes hard_scenes)
     add_judge(${name}/97x61/bounces_16 ${scene} double --size 97x61 --max-bounces 16 --backend cpu)
 endforeach()
 
-# A formula that is wrong by 1e-4 is found out behind a lens, although deep in the ray tree of every pixel some decision is
-# close: Oren-Nayar's B, Fresnel's k_r, the length of normals.
-foreach(wrong vkwhitted_broken vkwhitted_wrong_k_r vkwhitted_wrong_normal)
-    foreach(bounces 4 10)
-        add_test(NAME judge/lens/64x64/bounces_${bounces}/${wrong}
-                 COMMAND ${wrong} check -q --against double --size 64x64 --max-bounces ${bounces}
-                         ${PROJECT_SOURCE_DIR}/scenes/hard/lens.yaml)
-        set_tests_properties(judge/lens/64x64/bounces_${bounces}/${wrong} PROPERTIES LABELS judge TIMEOUT 300
-                             PASS_REGULAR_EXPRESSION " [0-9]+ unexplained @ .* UNEXPLAINED")
-    endforeach()
-endforeach()
-
-# What the README says of the figures' errors.
+# What the README says of figure_4's errors.
 foreach(scene IN LISTS figure_scenes)
     cmake_path(GET scene STEM name)
     add_test(NAME judge/${name}/600x400/relative_error

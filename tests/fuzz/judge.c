@@ -1,8 +1,7 @@
 /* Random scenes that break ray tracers: float's picture of 8x8 pixels is judged by double's. It has no NaN,
  * and no pixel that the error analysis does not explain.
- *
- * For libFuzzer, which then chooses the scenes by their bytes; or fuzz_scenes FIRST COUNT for the cases of
- * these numbers. A scene with a finding is printed, for `vkwhitted check --backend cpu --against double`. */
+ * The bytes choose the scene. One with a finding is printed, for `vkwhitted check --backend cpu --against
+ * double`. */
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
@@ -12,7 +11,8 @@
 #include <string.h>
 
 #include "check/judge.h"
-#include "functions/random.h"
+#include "fuzz.h"
+#include "random.h"
 #include "reference.h"
 #include "scene/pack.h"
 
@@ -270,13 +270,14 @@ static void draw_scene(const uint8_t *data, size_t size, struct sketch *sketch)
     sketch->samples = choose(&sketch->source, 4) ? 1 : 3;
 }
 
-static bool fail(const struct sketch *sketch, const char *what, unsigned x, unsigned y)
+static void fail(const struct sketch *sketch, const char *what, unsigned x, unsigned y)
 {
     printf("%s @ (%u, %u) with --samples %u in\n%s\n", what, x, y, sketch->samples, sketch->text);
-    return false;
+    fflush(stdout);
+    abort();
 }
 
-static bool judge(const struct packed_scene *packed, const struct sketch *sketch)
+static void judge(const struct packed_scene *packed, const struct sketch *sketch)
 {
     const struct reference_window window = {0, 0, SIDE, SIDE};
     double rgb[3 * PIXELS], charges[PIXELS];
@@ -296,75 +297,30 @@ static bool judge(const struct packed_scene *packed, const struct sketch *sketch
                 finite && isfinite(rgb[3 * i + c]) && isfinite(exact->rgb[c]) && isfinite(exact->bound[c]);
         }
         if (!finite)
-            return fail(sketch, "not finite", i % SIDE, i / SIDE);
+            fail(sketch, "not finite", i % SIDE, i / SIDE);
     }
     const struct image image = {.width = SIDE, .height = SIDE, .rgb = rounded};
     if (judge_picture(&image, signatures, explanations, &judgement) != STATUS_DONE)
-        return fail(sketch, "unexplained", judgement.unexplained_x, judgement.unexplained_y);
-    return true;
+        fail(sketch, "unexplained", judgement.unexplained_x, judgement.unexplained_y);
 }
 
-/* Whether there is no finding; *judged is whether there was a scene that is not refused. */
-static bool try_case(const uint8_t *data, size_t size, bool *judged)
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct sketch sketch;
     struct scene scene;
     struct packed_scene packed;
     draw_scene(data, size, &sketch);
-    *judged = false;
     if (scene_read_text("fuzz.yaml", sketch.text, sketch.length, &scene) != STATUS_DONE)
-        return true;
+        return 0;
     const struct picture_settings settings = {.width = SIDE,
                                               .height = SIDE,
                                               .max_bounces = scene.max_bounces,
                                               .samples = sketch.samples,
                                               .light_samples = scene.light_samples};
-    bool good = true;
     if (pack_scene(&scene, &settings, &packed) == STATUS_DONE) {
-        *judged = true;
-        good = judge(&packed, &sketch);
+        judge(&packed, &sketch);
         pack_destroy(&packed);
     }
     scene_destroy(&scene);
-    return good;
-}
-
-#ifdef LIBFUZZER
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
-{
-    bool judged;
-    if (!try_case(data, size, &judged)) {
-        fflush(stdout);
-        abort();
-    }
     return 0;
 }
-
-#else
-
-int main(int argc, char **argv)
-{
-    const unsigned long first = argc > 1 ? strtoul(argv[1], NULL, 10) : 0;
-    const unsigned long count = argc > 2 ? strtoul(argv[2], NULL, 10) : 1000;
-    unsigned long findings = 0, judged = 0;
-    if (!freopen("/dev/null", "w", stderr)) /* what is refused says why */
-        return EXIT_FAILURE;
-    for (unsigned long i = first; i < first + count; ++i) {
-        struct random random = random_start(1, 0, i);
-        uint64_t bytes[] = {random_bits(&random), random_bits(&random)};
-        bool is_scene;
-        if (!try_case((const uint8_t *)bytes, sizeof bytes, &is_scene)) {
-            printf("case %lu\n", i);
-            fflush(stdout);
-            ++findings;
-        }
-        judged += is_scene;
-    }
-    printf("%lu cases, %lu scenes: %lu findings\n", count, judged, findings);
-    return findings > 0 || judged < count / 2 ? EXIT_FAILURE : EXIT_SUCCESS;
-}
-
-#endif
