@@ -25,14 +25,14 @@ add_cli_tests(usage no_command unknown_command unknown_option missing_argument v
 add_cli_tests(input missing_scene scene_by_name folder_as_scene bad_scene bad_scene_among_good_ones scene_that_is_warned_of)
 add_cli_tests(spheres bad_files arrays)
 if(VKWHITTED_TESTS STREQUAL "all")
-    add_cli_tests(spheres rows_as_objects names_of_rows)
+    add_cli_tests(spheres rows_as_objects names_of_rows coincident_20000 million_grains)
 endif()
 add_cli_tests(output formats same_bits_on_both_backends exr_metadata transfer unknown_suffix unwritable_folder
               missing_folder disk_full existing_file_kept_on_failure crop_of_16384 stats)
 add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer
               devices)
 if(VKWHITTED_TESTS STREQUAL "all")
-    add_cli_tests(pretend failing_calls agreement_as_graphics_card dispatch_sizes agreement_with_long_vectors)
+    add_cli_tests(pretend failing_calls texel_limit agreement_as_graphics_card dispatch_sizes agreement_with_long_vectors)
 endif()
 add_cli_tests(check agreement difference tolerance allow heatmap json junit)
 add_cli_tests(bench without_device bad_comparison options interrupted)
