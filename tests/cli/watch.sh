@@ -202,6 +202,8 @@ camera_among_many_spheres() {
     "$BINARY_DIR/make_spheres" cloud 300 >rows.npy
     turn 'picture 2: pipeline' edit 's/^objects:/&\n  - { name: Flake, type: spheres, file: rows.npy, material: Glass }/' s.yaml
     picture_is_rendered_scene
+    turn 'same pipeline' sh -c 'cat rows.npy >moved.npy; printf "\0\0\200\100" | dd of=moved.npy bs=1 seek=140 conv=notrunc status=none; mv moved.npy rows.npy'
+    picture_is_rendered_scene
     for row in 3 4 21; do # within the room
         set -- $(od -An -v -tf4 -w16 -j$((128 + 16 * row)) -N16 rows.npy)
         turn 'same pipeline' edit "s/camera: { position: [^]]*]/camera: { position: [$1, $2, $3]/" s.yaml
