@@ -50,7 +50,7 @@ add_cli_tests(watch scene_edits_keep_the_pipeline broken_and_repaired missing_in
               checked_in_the_background device_lost)
 add_cli_tests(progress on_a_terminal)
 if(VKWHITTED_TESTS STREQUAL "all")
-    add_cli_tests(watch saves shader_edits broken_at_the_start ways_of_saving written_slowly quick_saves idle checked_in_double
+    add_cli_tests(watch camera_among_many_spheres saves shader_edits broken_at_the_start ways_of_saving written_slowly quick_saves idle checked_in_double
                   validated)
     add_cli_tests(progress not_elsewhere quiet)
 endif()
