@@ -27,6 +27,21 @@ tiles() {
     cmp c.pfm d.pfm || fail 'other bits of a crop'
 }
 
+# Tiles of two drivers, which have no code in common, and of the reference.
+drivers() {
+    local picture="$figure --size 150x100"
+    expect 0 "$VKWHITTED" render -q $picture $cpu -o whole.pfm
+    expect 0 "$VKWHITTED" render -q $picture --tile 1/3 -o 1.exr --device llvmpipe
+    VK_ICD_FILENAMES=$SWIFTSHADER VK_DRIVER_FILES=$SWIFTSHADER \
+        expect 0 "$VKWHITTED" render -q $picture --tile 2/3 -o 2.exr --device SwiftShader
+    expect 0 "$VKWHITTED" render -q $picture --tile 3/3 -o 3.exr $cpu
+    expect 0 "$VKWHITTED" join 1.exr 2.exr 3.exr -o joined.pfm -o joined.exr
+    cmp whole.pfm joined.pfm || fail 'other bits'
+    for device in llvmpipe SwiftShader cpu; do
+        head -c 4096 joined.exr | grep -aq "$device" || fail "the picture does not say that $device is one of its devices"
+    done
+}
+
 # What does not belong together is named.
 refusals() {
     local array=$SOURCE_DIR/scenes/hard/camera_in_cloud
