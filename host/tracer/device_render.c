@@ -16,6 +16,7 @@ static enum status create_tracer(struct vulkan_context *context, const struct re
     const struct tracer_options options = {
         .double_precision = plan->precision == PRECISION_DOUBLE,
         .fast = plan->fast,
+        .shaders = plan->shaders,
         .output = output,
         .charges = output == OUTPUT_RADIANCE && plan->bound_truncation,
     };
