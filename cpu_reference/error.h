@@ -110,11 +110,13 @@ static inline struct errors errors_through(double norm, double factor, struct ve
                            smaller(fabs(factor - pz * qz) * e.z + fabs(pz) * (x + y), most), most};
 }
 
-/* Of v once it has been put to length 1, which v is but for such errors: by normalize(), and more than enough
- * for renormalize(). */
+/* What the length of a unit vector may be off by: normalize()'s roundings, and more than renormalize()'s. */
+static const double length_roundings = 4.5;
+
+/* Of v once it has been put to length 1, which v is but for such errors. */
 static inline struct errors unit_errors(struct vec3 v, struct errors e)
 {
-    return errors_add(errors_through(1, 1, v, v, e), errors_of(4.5, v));
+    return errors_add(errors_through(1, 1, v, v, e), errors_of(length_roundings, v));
 }
 
 struct ray_errors {
@@ -166,12 +168,15 @@ static inline struct hit_error track_sphere_hit(layout_vec4 sphere, const struct
     const struct vec3 across = approach.center_offset;
     const struct errors e_across =
         errors_add(errors_of(1, scale(approach.along, direction)), errors_of(1, across));
-    const double e_along = errors_weigh(to_center, errors_of(3, direction));
+    /* a direction's length counts twice, in the product and times it */
+    const double e_along = errors_weigh(to_center, errors_of(3, direction)) +
+                           2 * length_roundings * unit_roundoff * fabs((double)approach.along);
     const double e_half_chord =
-        (errors_weigh(across, e_across) + 2 * unit_roundoff * radius * radius) / half_chord +
+        (errors_weigh(across, e_across) + e_along * e_along + 2 * unit_roundoff * radius * radius) /
+            half_chord +
         unit_roundoff * half_chord;
-    struct errors rounded =
-        errors_add(e_across, errors_along(direction, e_along + e_half_chord + unit_roundoff * half_chord));
+    const double e_forward = e_along + e_half_chord + (1 + length_roundings) * unit_roundoff * half_chord;
+    struct errors rounded = errors_add(e_across, errors_along(direction, e_forward));
     rounded = errors_add(rounded, errors_of(radius, hit->normal));
     const struct errors moved =
         errors_add(moved_errors(error, (double)hit->distance), errors_of(1, to_center));
@@ -182,7 +187,8 @@ static inline struct hit_error track_sphere_hit(layout_vec4 sphere, const struct
     const struct errors sum =
         errors_add(errors_through(1, 1, hit->normal, hit->normal, rounded),
                    errors_scale(larger(stretch, 1), meeting_error(ray, hit->normal, moved)));
-    const struct errors normal = errors_add(errors_scale(1 / radius, sum), errors_of(4.5, hit->normal));
+    const struct errors normal =
+        errors_add(errors_scale(1 / radius, sum), errors_of(length_roundings, hit->normal));
     return (struct hit_error){
         .normal = normal,
         .distance = larger(stretch, 1) * errors_weigh(hit->normal, moved) / cos + e_along + e_half_chord,
@@ -210,7 +216,10 @@ static inline struct hit_error track_plane_hit(layout_vec4 plane, const struct r
     struct errors point = errors_add(meeting_error(ray, normal, moved),
                                      errors_along(subtract(direction, scale(slope, normal)), e_distance));
     point = errors_add(errors_scale(grown, point), errors_through(1, 1, normal, normal, rounded));
-    point = errors_add(point, errors_along(normal, errors_weigh(normal, errors_of(3, hit->point))));
+    const struct errors off = errors_scale(
+        4 * unit_roundoff, errors_add(rounded, errors_along(direction, e_distance))); /* roundings of those */
+    const double e_residual = errors_weigh(normal, errors_add(errors_of(3, hit->point), off));
+    point = errors_add(point, errors_add(off, errors_along(normal, e_residual)));
     return (struct hit_error){
         .distance = grown * errors_weigh(normal, moved) / size + e_distance,
         .point = errors_add(point, errors_of(1, hit->point)),
@@ -294,8 +303,9 @@ static inline struct errors track_reflection(struct vec3 direction, struct error
     const struct vec3 twice = scale(2, normal);
     const real cos_in = -dot(normal, direction);
     const struct vec3 reflected = add(direction, scale(cos_in, twice));
-    struct errors sum = errors_add(errors_through(1, 1, twice, normal, e_direction),
-                                   errors_through(2, 2 * (double)cos_in, twice, direction, e_normal));
+    struct errors sum =
+        errors_add(errors_through(1, 1, twice, normal, e_direction),
+                   errors_through(2 + 2 * (double)cos_in, 2 * (double)cos_in, twice, direction, e_normal));
     sum = errors_add(sum, errors_along(twice, dot_error(normal, none, direction, none) +
                                                   unit_roundoff * fabs((double)cos_in)));
     return unit_errors(reflected, errors_add(sum, errors_of(1, reflected)));

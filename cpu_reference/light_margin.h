@@ -292,7 +292,8 @@ static inline void track_quad(const struct packed_scene *scene, int number, cons
         real projected = dot(area, to_light);
         bool lit = sample.received > 0 && projected > 0;
         note(tally, lit);
-        double e_projected = dot_error(area, none, sample.direction, sample.e_direction);
+        double e_projected =
+            dot_error(area, none, sample.direction, sample.e_direction) + FLT_MIN; /* denormal */
         double largest = larger((double)dot(area, sample.direction) + e_projected, 0);
         NOTE_AREA_BOUND(e_projected);
         RECORD_LIGHT(scene->point_light_count + number, k, light, projected);

@@ -144,6 +144,7 @@ struct EventHead {
 #define SHARED_A x     /* PackedView.matte: Oren-Nayar's A and B, where all matte surfaces share them */
 #define SHARED_B y
 #define RADIANCE_BOUND x  /* PackedView.truncation: no ray brings more radiance than this */
+#define UNBOUNDED 1267650600228229401496703205376.0 /* 2^100 as RADIANCE_BOUND: a light touches a matte surface */
 #define ALLOWANCE y       /* what a sample may be charged for rays left out; negative: none is left out */
 #define FIRST_THRESHOLD z /* rays of smaller weight are left out at the first attempt; see NUMERICS.md */
 

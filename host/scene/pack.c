@@ -2,6 +2,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,6 +18,13 @@ static const double pi = 3.14159265358979323846;
 
 /* Keeps the largest possible radiance, at NEAREST_LIGHT_SQUARED, far inside float. */
 static const double brightest = 1e12;
+
+/* In scene units: its square, and what float leaves of it behind the point, is far from denormals. */
+static const double least_radius = 0x1p-50;
+
+/* Of the distance from the middle of the image plane to a corner, by that to the camera: its square is
+ * finite. */
+static const double widest = 0x1p60;
 
 struct packing {
     const struct scene *scene;
@@ -271,12 +279,46 @@ static void share_roughness(struct packed_scene *packed)
     }
 }
 
+/* Whether float's exponents suffice for a sphere of the object. */
+static bool is_large_enough(const struct packing *packing, const struct scene_object *object, size_t row)
+{
+    const struct body body = body_of(object, row);
+    char of_row[32] = "";
+    if (!body.is_ball || body.number * packing->scale >= least_radius)
+        return true;
+    if (object->type == OBJECT_SPHERES)
+        snprintf(of_row, sizeof of_row, " row %zu", row);
+    log_error("%s:%d:%d: sphere \"%s\"%s: radius must be at least %g of the scene's extent, %.3g, is %g",
+              packing->scene->path, object->place.line, object->place.column, object->name, of_row,
+              least_radius, least_radius / packing->scale, body.number);
+    return false;
+}
+
+static enum status check_ranges(const struct packing *packing)
+{
+    const struct scene *scene = packing->scene;
+    const struct packed_scene *packed = packing->packed;
+    const double half = tan(scene->camera.fov_y_degrees / 180 * pi / 2);
+    for (size_t i = 0; i < scene->object_count; ++i)
+        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row)
+            if (!is_large_enough(packing, &scene->objects[i], row))
+                return STATUS_REFUSED;
+    if (half * (1 + (double)packed->width / packed->height) < widest)
+        return STATUS_DONE;
+    log_error("%s: fov_y %.17g is too near to 180 degrees for a picture of %dx%d", scene->path,
+              scene->camera.fov_y_degrees, packed->width, packed->height);
+    return STATUS_REFUSED;
+}
+
 static enum status pack_contents(struct packing *packing)
 {
     const struct scene *scene = packing->scene;
+    enum status status = check_ranges(packing);
+    if (status != STATUS_DONE)
+        return status;
     pack_view(packing);
     pack_planes_and_looped(packing);
-    enum status status = pack_others(packing);
+    status = pack_others(packing);
     for (size_t i = 0; i < scene->light_count && status == STATUS_DONE; ++i)
         status = pack_light(packing, &scene->lights[i]);
     if (status != STATUS_DONE)

@@ -8,7 +8,7 @@
 static const float first_attempt = 16;
 
 /* More than a light of this scene can give, should no better bound be found. */
-static const float unbounded = 0x1p100f;
+static const float unbounded = (float)UNBOUNDED;
 
 /* Added to the bound, so that no charge underflows. */
 static const float darkest = 0x1p-30f;
@@ -168,9 +168,9 @@ void truncation_pack(struct packed_scene *scene, double max_error)
 
 double truncation_bound(const struct packed_scene *scene, double charges)
 {
-    if (!(charges > 0))
+    if (charges == 0)
         return 0;
-    if (scene->view.truncation.RADIANCE_BOUND == unbounded)
+    if (scene->view.truncation.RADIANCE_BOUND == unbounded || isnan(charges))
         return INFINITY;
     return charges / scene->samples * (1 + slack) +
            rounding(scene, (double)scene->view.truncation.RADIANCE_BOUND);
