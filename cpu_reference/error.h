@@ -226,9 +226,71 @@ static inline struct hit_error track_plane_hit(layout_vec4 plane, const struct r
     };
 }
 
+/* What rounding makes of the height of a point: five roundings of each term and
+ * one of the difference. */
+static inline double height_rounding(const struct giant *giant, struct vec3 point)
+{
+    const struct vec3 bend = scale(giant->curvature / 2, point);
+    return errors_weigh(point, errors_add(errors_of(6, giant->gradient), errors_of(6, bend))) +
+           unit_roundoff * fabs((double)giant->offset);
+}
+
+static inline struct hit_error track_giant_hit(const struct giant *giant, const struct ray *ray,
+                                               const struct ray_errors *error, const struct hit *hit)
+{
+    const struct vec3 normal = hit->normal, direction = ray->direction, origin = ray->origin;
+    const struct vec3 bend = scale(giant->curvature, origin);
+    const struct giant_line line = giant_line(giant, origin, direction, true);
+    const double curvature = (double)giant->curvature, distance = (double)hit->distance;
+    const double slope = fabs((double)line.slope), root = fabs((double)dot(normal, direction));
+    const double e_slope = errors_weigh(giant_gradient(giant, origin), error->direction) +
+                           curvature * errors_weigh(direction, error->origin);
+    const double r_slope =
+        errors_weigh(direction, errors_add(errors_of(5, giant->gradient), errors_of(5, bend)));
+    const struct errors moved = moved_errors(error, distance);
+    struct errors point;
+    double e_distance, r_distance;
+    if (ray->surface == hit->surface) { /* a chord */
+        r_distance = 2 * r_slope / curvature + 2 * unit_roundoff * distance;
+        e_distance = 2 * e_slope / curvature;
+        point =
+            errors_add(errors_through(1, 1, normal, normal, moved),
+                       errors_along(subtract(direction, scale(dot(normal, direction), normal)), e_distance));
+    } else {
+        const double r_height = height_rounding(giant, origin) + distance * r_slope;
+        const double r_root =
+            unit_roundoff * ((slope * slope + 2 * curvature * fabs((double)line.height)) / root + root);
+        /* the slope at the surface, by which heights are divided, changes on the way */
+        const double steep = larger(root - e_slope - r_slope, root / 2);
+        const double off = errors_weigh(normal, moved) + r_height;
+        const double stretch = 2 * root / (steep + sqrt(larger(steep * steep - 2 * curvature * off, 0)));
+        r_distance = stretch * r_height / root + distance * (r_root / (slope + root) + 3 * unit_roundoff);
+        e_distance = stretch * errors_weigh(normal, moved) / root;
+        point = errors_scale(stretch, meeting_error(ray, normal, moved));
+    }
+    const struct errors rounded = errors_add(errors_of(distance, direction), errors_of(1, hit->point));
+    const struct errors turned =
+        errors_scale(curvature, errors_add(moved, errors_along(direction, e_distance + r_distance)));
+    point = errors_add(point,
+                       errors_along(subtract(direction, scale(dot(normal, direction), normal)), r_distance));
+    point = errors_add(point, errors_through(1, 1, normal, normal, rounded));
+    point = errors_add(point, errors_along(normal, height_rounding(giant, hit->point)));
+    return (struct hit_error){
+        .normal = unit_errors(
+            normal, errors_add(turned, errors_add(errors_of(1, normal),
+                                                  errors_of(1, scale(giant->curvature, hit->point))))),
+        .distance = e_distance + r_distance,
+        .point = errors_add(point, errors_of(1, hit->point)),
+    };
+}
+
 static inline struct hit_error track_hit(const struct packed_scene *scene, const struct ray *ray,
                                          const struct ray_errors *error, const struct hit *hit)
 {
+    if (is_giant(scene, hit->surface)) {
+        const struct giant giant = giant_of(scene, hit->surface);
+        return track_giant_hit(&giant, ray, error, hit);
+    }
     if (hit->surface < scene->sphere_count)
         return track_sphere_hit(scene->spheres[hit->surface].center_radius, ray, error, hit);
     return track_plane_hit(scene->planes[hit->surface - scene->sphere_count].normal_offset, ray, error, hit);

@@ -129,6 +129,7 @@ struct EventHead {
 #define ETA_EXITING z    /* for one that exits it */
 #define KAPPA_EXITING w
 #define OREN_NAYAR_B x /* PackedSurface.more_parameters of matte */
+#define CURVATURE y    /* PackedSurface.more_parameters of giants: 1 / radius */
 #define SURFACE_KIND x /* PackedSurface.tags: KIND_ */
 #define FILE_ORDER                                                                                           \
     y /* of spheres and of planes' surfaces: place in the scene file, where each row of a file of            \
@@ -153,6 +154,9 @@ struct PackedSurface {
     LAYOUT_IVEC4 tags;
 };
 
+/* A giant, which has a surface of its own, has instead the height of a point x over its surface,
+ * gradient . x + curvature / 2 |x|^2 - offset: the gradient in xyz, the offset in w. With centre c and radius
+ * r that is (|x - c|^2 - r^2) / (2 r), the distance from the surface for points near it. */
 struct PackedSphere {
     LAYOUT_VEC4 center_radius;
     LAYOUT_IVEC4 tags;

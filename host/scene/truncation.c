@@ -122,13 +122,13 @@ static double rounding(const struct packed_scene *scene, double radiance)
 }
 
 /* The normal of two parallel mirrors that face each other, with w = 1, if every other plane is matte and
- * stands across them; otherwise 0. So it is where there are spheres that are not looped over: whether a ray
- * escapes is found out by trying all spheres, not only those on its way. */
+ * stands across them; otherwise 0. So it is where there are giants, or spheres that are not looped over:
+ * whether a ray escapes is found out by trying all spheres, not only those on its way. */
 static layout_vec4 between_mirrors(const struct packed_scene *scene)
 {
     const layout_vec4 none = {0, 0, 0, 0};
     int mirror = 0;
-    if (scene->sphere_count > scene->looped_spheres)
+    if (scene->sphere_count > scene->looped_spheres || scene->giants != 0)
         return none;
     while (mirror < scene->plane_count && scene->planes[mirror].surface.tags.SURFACE_KIND != KIND_MIRROR)
         ++mirror;
