@@ -84,6 +84,12 @@ static inline double errors_length(struct errors e)
     return smaller(sqrt(e.x * e.x + e.y * e.y + e.z * e.z), e.length);
 }
 
+/* Of a length, of a vector that is off by `off`: half of a dot product's roundings, and the root's. */
+static inline double length_error(double length_of_it, double off)
+{
+    return off + 2.5 * unit_roundoff * length_of_it;
+}
+
 /* What they bring into a product with v. */
 static inline double errors_weigh(struct vec3 v, struct errors e)
 {

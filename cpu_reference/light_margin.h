@@ -215,9 +215,7 @@ track_receive(const struct packed_scene *scene, const struct matte_point *matte,
     const struct vec3 way = subtract(light, hit->point);
     const struct errors e_way = errors_add(errors_add(point->hit.point, e_light), errors_of(1, way));
     const double distance = length(way), off = errors_length(e_way);
-    const double e_distance =
-        off + 2.5 * unit_roundoff * distance; /* half of a dot product's, and a root's */
-    if (distance - off <= nearest_light) {    /* too near to shine, or perhaps not, and from wherever */
+    if (distance - off <= nearest_light) { /* too near to shine, or perhaps not, and from wherever */
         sample.error = 2 / NEAREST_LIGHT_SQUARED;
         sample.e_direction = (struct errors){1, 1, 1, 1};
         sample.may_hide = true;
@@ -228,7 +226,7 @@ track_receive(const struct packed_scene *scene, const struct matte_point *matte,
     const double cos_in = (double)dot(hit->normal, sample.direction);
     const double e_cos_in = dot_error(hit->normal, point->hit.normal, sample.direction, sample.e_direction);
     sample.margin = INFINITY;
-    NOTE_LIGHT_BOUNDS(e_light, e_distance, e_cos_in, 0, INFINITY);
+    NOTE_LIGHT_BOUNDS(e_light, length_error(distance, off), e_cos_in, 0, INFINITY);
     if (cos_in < -e_cos_in)
         return sample;
     double e_factor, factor = track_factor(matte, point, &sample, cos_in, e_cos_in, &e_factor);
@@ -251,7 +249,7 @@ track_receive(const struct packed_scene *scene, const struct matte_point *matte,
         require_positive(&lit, (double)dot(vector_of(quad->area_normal), sample.direction),
                          dot_error(vector_of(quad->area_normal), none, sample.direction, sample.e_direction));
     sample.margin = conjunction_margin(&lit);
-    NOTE_LIGHT_BOUNDS(e_light, e_distance, e_cos_in, sample.error, sample.margin);
+    NOTE_LIGHT_BOUNDS(e_light, length_error(distance, off), e_cos_in, sample.error, sample.margin);
     return sample;
 }
 
