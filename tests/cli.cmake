@@ -41,6 +41,7 @@ add_cli_tests(pixel against json light_samples place)
 if(VKWHITTED_TESTS STREQUAL "all")
     add_cli_tests(check worst_status judged_behind_a_lens)
     add_cli_tests(package deb)
+    add_cli_tests(readme commands sessions files)
     add_cli_tests(bench report)
     add_cli_tests(pixel agreement samples max_bounces max_error options broken_k_r broken_shadow broken_normal broken_total broken_term broken_picture)
 endif()
@@ -49,7 +50,7 @@ add_cli_tests(watch scene_edits_keep_the_pipeline broken_and_repaired missing_in
               checked_in_the_background device_lost)
 add_cli_tests(progress on_a_terminal)
 if(VKWHITTED_TESTS STREQUAL "all")
-    add_cli_tests(watch saves shader_edits broken_at_the_start ways_of_saving written_slowly quick_saves idle checked_in_double
+    add_cli_tests(watch camera_among_many_spheres saves shader_edits broken_at_the_start ways_of_saving written_slowly quick_saves idle checked_in_double
                   validated)
     add_cli_tests(progress inside_tiles minutes not_elsewhere quiet)
 endif()
