@@ -186,7 +186,7 @@ const struct option_entry option_table[] = {
 
     {"tile", "", RENDER, OTHER("I/N", read_tile),
      "only the Ith of N parts of the picture, from 1, as .exr;\n"
-     "'vkwhitted join' makes one picture of all of them"},
+     "join makes one picture of all of them"},
     {"stats", "", RENDER, TEXT("FILE", stats), "times, rays and device as JSON"},
     {"repeat", "", RENDER, NUMBER(job.plan.repeat, 1, 100000),
      "render again as often; the time is the median of these"},

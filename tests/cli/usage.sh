@@ -159,9 +159,9 @@ completion() {
     . "$BINARY_DIR/completions/bash/vkwhitted"
     complete -p vkwhitted >out || fail 'not in use'
     mkdir folder
-    touch a.yaml b.json c.png
+    touch a.yaml b.json c.png d.exr
     completes 'vkwhitted p' pixel
-    completes 'vkwhitted ' '--help --version bench check devices pixel render watch'
+    completes 'vkwhitted ' '--help --version bench check devices join pixel render watch'
     completes 'vkwhitted check --ag' --against
     completes 'vkwhitted check --against ' 'double quad'
     completes 'vkwhitted render --precision ' 'double float quad'
@@ -174,10 +174,11 @@ completion() {
     completes 'vkwhitted render --size ' ''
     completes 'vkwhitted render --fast ' 'a.yaml folder'
     completes 'vkwhitted check a.yaml ' 'a.yaml folder'
+    completes 'vkwhitted join ' 'd.exr folder'
     completes 'vkwhitted watch --shaders ' folder
     completes 'vkwhitted bench --compare ' 'b.json folder'
     completes 'vkwhitted check --heatmap ' 'c.png folder'
-    completes 'vkwhitted render -o ' 'a.yaml b.json c.png folder out'
+    completes 'vkwhitted render -o ' 'a.yaml b.json c.png d.exr folder out'
     if command -v zsh >/dev/null; then
         expect 0 zsh -n "$BINARY_DIR/completions/zsh/_vkwhitted"
     fi
