@@ -274,32 +274,12 @@ static void escapes(void **state)
     }
 }
 
-/* For good: the flag stays. So this is the last test. */
-static void interrupted(void **state)
-{
-    struct packed_scene packed;
-    struct scene scene;
-    const char *text = HEAD CLOUD;
-    (void)state;
-    fill_rows(100, 0.25F);
-    npy_write("rows.npy", 100, rows);
-    assert_int_equal(scene_read_text("a.yaml", text, strlen(text), &scene), STATUS_DONE);
-    struct picture_settings settings = test_settings(&scene);
-    interrupt_catch();
-    raise(SIGINT);
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_INTERRUPTED);
-    assert_true(!packed.spheres && !packed.hierarchy);
-    scene_destroy(&scene);
-    assert_int_equal(scene_read_text("a.yaml", text, strlen(text), &scene), STATUS_INTERRUPTED);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(few_and_many),          cmocka_unit_test(rows_as_objects),
         cmocka_unit_test(order_and_surfaces),    cmocka_unit_test(giants),
         cmocka_unit_test(tags_of_random_scenes), cmocka_unit_test(escapes),
-        cmocka_unit_test(interrupted),
     };
     return cmocka_run_group_tests(tests, test_folder_setup, test_folder_teardown);
 }

@@ -16,7 +16,8 @@ struct progress {
 void progress_start(struct progress *progress, const char *label, uint64_t total, bool quiet);
 void progress_advance(struct progress *progress, uint64_t amount);
 
-/* Wipes the bar; the next advance shows it again. Messages (status.h) do so before they appear. */
+/* Wipes the bar; the next advance shows it again. Messages (status.h) do so before they appear. May
+ * be called by a signal's handler. */
 void progress_wipe(void);
 
 /* Wipes the bar for good, done or not. */

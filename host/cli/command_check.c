@@ -13,11 +13,6 @@ struct check {
     json_t *results;
 };
 
-static enum status worse(enum status a, enum status b)
-{
-    return a > b ? a : b;
-}
-
 static enum status add_result(const struct check *check, const char *scene, json_t *result)
 {
     if (json_array_append_new(check->results, result) == 0)
@@ -38,9 +33,10 @@ static enum status compare(const struct check *check, const char *scene, const s
     status = comparison.differing <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
     comparison_print(&comparison, scene, options->allow);
     if (options->json)
-        status = worse(status, add_result(check, scene, comparison_json(&comparison, scene, options->allow)));
+        status = status_worse(status,
+                              add_result(check, scene, comparison_json(&comparison, scene, options->allow)));
     if (options->heatmap)
-        status = worse(status, heatmap_write(device, reference, options->heatmap));
+        status = status_worse(status, heatmap_write(device, reference, options->heatmap));
     return status;
 }
 
@@ -73,10 +69,10 @@ static enum status judge(const struct check *check, const char *scene, const str
     status = judgement.unexplained <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
     judgement_print(&judgement, scene, precision, options->allow);
     if (options->json)
-        status = worse(
+        status = status_worse(
             status, add_result(check, scene, judgement_json(&judgement, scene, precision, options->allow)));
     if (options->heatmap)
-        status = worse(status, judgement_heatmap(image, explanations, options->heatmap));
+        status = status_worse(status, judgement_heatmap(image, explanations, options->heatmap));
     return status;
 }
 
@@ -127,15 +123,15 @@ enum status command_check(const struct options *options)
     if (status != STATUS_DONE)
         return status;
     check.results = json_array();
-    for (size_t i = 0; i < options->scene_count && status != STATUS_INTERRUPTED; ++i)
-        status = worse(status, check_scene(&check, options->scenes[i]));
-    if (options->json && status != STATUS_INTERRUPTED) {
+    for (size_t i = 0; i < options->scene_count; ++i)
+        status = status_worse(status, check_scene(&check, options->scenes[i]));
+    if (options->json && json_array_size(check.results) == options->scene_count) {
         const struct vulkan_context *context = check.context;
         json_t *document =
             json_pack("{s:s, s:s, s:O}", "device", context ? context->properties.deviceName : "cpu", "driver",
                       context ? context->driver.driverInfo : "plain-C reference", "scenes", check.results);
-        status = worse(status, json_write(document, options->json));
+        status = status_worse(status, json_write(document, options->json));
     }
     json_decref(check.results);
-    return worse(status, vulkan_context_destroy(&check.context));
+    return status_worse(status, vulkan_context_destroy(&check.context));
 }

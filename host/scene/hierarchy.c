@@ -4,8 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/interrupt.h"
-
 enum {
     BINS = 16,
     LEAST_TASK = 4096, /* spheres for which another thread pays */
@@ -150,8 +148,6 @@ static void build(struct hierarchy_node *nodes, uint32_t node, uint32_t below, s
         nodes[node] = (struct hierarchy_node){box_around(leaves), 0, leaves->sphere};
         return;
     }
-    if (count > LEAST_TASK && interrupt_requested())
-        return;
     const uint32_t left = part(leaves, count, level), right = count - left;
     const uint32_t below_right =
         below + 2 * left; /* behind the two children and what is below the left one */
@@ -184,10 +180,7 @@ enum status hierarchy_build(const struct PackedSphere *spheres, uint32_t first, 
 #pragma omp single
     build(hierarchy->nodes, 0, 1, leaves, count, 0);
     free(leaves);
-    if (!interrupt_requested())
-        return STATUS_DONE;
-    hierarchy_destroy(hierarchy);
-    return STATUS_INTERRUPTED;
+    return STATUS_DONE;
 }
 
 void hierarchy_destroy(struct hierarchy *hierarchy)

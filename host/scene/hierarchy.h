@@ -34,8 +34,7 @@ struct hierarchy {
 };
 
 /* Of spheres first to first + count - 1 of the scene; on all processors. On STATUS_DONE the caller frees it
- * with hierarchy_destroy(); otherwise it is empty: STATUS_UNABLE (reported) without memory,
- * STATUS_INTERRUPTED. */
+ * with hierarchy_destroy(); otherwise it is empty: STATUS_UNABLE (reported) without memory. */
 enum status hierarchy_build(const struct PackedSphere *spheres, uint32_t first, uint32_t count,
                             struct hierarchy *hierarchy);
 void hierarchy_destroy(struct hierarchy *hierarchy);

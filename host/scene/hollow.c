@@ -1,6 +1,5 @@
 #include "scene/hollow.h"
 
-#include "base/interrupt.h"
 #include "scene/body.h"
 
 enum { LEAST_PARALLEL = 4096 }; /* spheres or nodes for which other threads pay */
@@ -65,7 +64,7 @@ static void look_inside(struct packed_scene *packed, int sphere)
 /* A ray or a shading point can lie within a sphere other than on it if the camera is in it, or if it is
  * transparent and another surface reaches in. That is asked in the order of the hierarchy, so that spheres
  * one after the other look at the same of its nodes. */
-enum status hollow_pack(struct packed_scene *packed)
+void hollow_pack(struct packed_scene *packed)
 {
     const struct hierarchy *others = packed->hierarchy;
     const uint32_t nodes = others ? others->node_count : 0;
@@ -82,7 +81,6 @@ enum status hollow_pack(struct packed_scene *packed)
         look_inside(packed, i);
 #pragma omp parallel for schedule(dynamic, 1024) if (nodes > LEAST_PARALLEL)
     for (uint32_t i = 0; i < (glass ? nodes : 0); ++i)
-        if (others->nodes[i].left == 0 && !interrupt_requested())
+        if (others->nodes[i].left == 0)
             look_inside(packed, (int)others->nodes[i].sphere);
-    return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_DONE;
 }

@@ -18,7 +18,7 @@ struct overlaps {
 };
 
 /* Finds transparent bodies whose surfaces cross. Otherwise than STATUS_DONE: STATUS_UNABLE (reported) without
- * memory, STATUS_INTERRUPTED. */
+ * memory. */
 enum status overlaps_find(const struct scene *scene, struct overlaps *overlaps);
 
 #endif

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/interrupt.h"
 #include "scene/body.h"
 #include "scene/hollow.h"
 #include "scene/looped.h"
@@ -151,13 +150,11 @@ static enum status pack_others(struct packing *packing)
     struct packed_scene *packed = packing->packed;
     size_t sphere = 0;
     int order = 0;
-    for (size_t i = 0; i < scene->object_count && !interrupt_requested(); ++i) {
+    for (size_t i = 0; i < scene->object_count; ++i) {
         if (scene->objects[i].type != OBJECT_PLANE)
             pack_rows(packing, &scene->objects[i], order, &sphere);
         order += (int)object_body_count(&scene->objects[i]);
     }
-    if (interrupt_requested())
-        return STATUS_INTERRUPTED;
     if (packed->sphere_count == packed->looped_spheres)
         return STATUS_DONE;
     packed->hierarchy = calloc(1, sizeof *packed->hierarchy);
@@ -243,11 +240,11 @@ static enum status pack_contents(struct packing *packing)
     enum status status = pack_others(packing);
     for (size_t i = 0; i < scene->light_count && status == STATUS_DONE; ++i)
         status = pack_light(packing, &scene->lights[i]);
-    if (status == STATUS_DONE)
-        status = hollow_pack(packing->packed);
-    if (status == STATUS_DONE)
-        share_roughness(packing->packed);
-    return status;
+    if (status != STATUS_DONE)
+        return status;
+    hollow_pack(packing->packed);
+    share_roughness(packing->packed);
+    return STATUS_DONE;
 }
 
 double pack_scale(const struct scene *scene)

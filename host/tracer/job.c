@@ -1,7 +1,5 @@
 #include "tracer/job.h"
 
-#include "base/interrupt.h"
-
 static enum status choose_window(const struct picture_settings *settings, struct window *window)
 {
     if (window->width == 0)
@@ -65,7 +63,7 @@ enum status job_write(const struct job *job, const struct image *image, const ch
         .max_bounces = (unsigned)job->packed.max_bounces,
     };
     enum status status = STATUS_DONE;
-    for (size_t i = 0; i < path_count && status == STATUS_DONE; ++i)
-        status = interrupt_requested() ? STATUS_INTERRUPTED : image_write(image, paths[i], &metadata);
+    for (size_t i = 0; i < path_count; ++i)
+        status = status_worse(status, image_write(image, paths[i], &metadata));
     return status;
 }

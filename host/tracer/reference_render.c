@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/interrupt.h"
 #include "scene/truncation.h"
 #include "tracer/reference_scene.h"
 #include "tracer/render.h"
@@ -32,7 +31,7 @@ static void copy_band(const struct render_plan *plan, struct reference_window ba
         image->truncation[first + i] = (float)truncation_bound(plan->scene, picture->charges[i]);
 }
 
-/* Renders in bands of some rows, so that Ctrl-C is heard. */
+/* Renders in bands of some rows, after each of which there is progress. */
 static enum status render_once_on_cpu(void *renderer, const struct render_plan *plan, struct image *image,
                                       struct progress *progress, struct tracer_times *times)
 {
@@ -57,7 +56,7 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
         .charges = plan->bound_truncation ? values + 3 * band_pixels : NULL,
     };
     *times = (struct tracer_times){0};
-    for (unsigned y = 0; y < window->height && !interrupt_requested(); y += band_height) {
+    for (unsigned y = 0; y < window->height; y += band_height) {
         struct reference_window band = band_of(plan, y, band_height);
         double start = clock_ms();
         render[plan->precision](plan->scene, band, threads, &picture);
@@ -67,7 +66,7 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
     }
     *rays = picture.rays;
     free(values);
-    return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_DONE;
+    return STATUS_DONE;
 }
 
 enum status render_on_cpu(const struct render_plan *plan, struct rendering *rendering)
@@ -86,16 +85,16 @@ enum status render_on_cpu(const struct render_plan *plan, struct rendering *rend
     return status;
 }
 
-/* Explains the plan's window in bands, so that Ctrl-C is heard. */
-static enum status explain(const struct render_plan *plan, const struct packed_scene *scene,
-                           enum precision precision, struct reference_explanation *pixels)
+/* Explains the plan's window in bands, after each of which there is progress. */
+static void explain(const struct render_plan *plan, const struct packed_scene *scene,
+                    enum precision precision, struct reference_explanation *pixels)
 {
     const struct window *window = &plan->window;
     const int threads = reference_threads(plan->threads);
     const unsigned band_height = 4 * (unsigned)threads;
     struct progress progress;
     progress_start(&progress, "exact picture", (uint64_t)window->width * window->height, plan->quiet);
-    for (unsigned y = 0; y < window->height && !interrupt_requested(); y += band_height) {
+    for (unsigned y = 0; y < window->height; y += band_height) {
         struct reference_window band = band_of(plan, y, band_height);
         struct reference_explanation *first = pixels + (size_t)y * window->width;
         if (precision == PRECISION_DOUBLE)
@@ -105,7 +104,6 @@ static enum status explain(const struct render_plan *plan, const struct packed_s
         progress_advance(&progress, (uint64_t)band.width * (uint64_t)band.height);
     }
     progress_end(&progress);
-    return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_DONE;
 }
 
 enum status explain_on_cpu(const struct render_plan *plan, enum precision precision,
@@ -117,13 +115,10 @@ enum status explain_on_cpu(const struct render_plan *plan, enum precision precis
     if (status != STATUS_DONE)
         return status;
     *explanations = allocate_pixels(&plan->window, sizeof **explanations);
-    status = *explanations ? explain(plan, &scene.packed, precision, *explanations) : STATUS_UNABLE;
+    if (*explanations)
+        explain(plan, &scene.packed, precision, *explanations);
     reference_scene_destroy(&scene);
-    if (status == STATUS_DONE)
-        return STATUS_DONE;
-    free(*explanations);
-    *explanations = NULL;
-    return status;
+    return *explanations ? STATUS_DONE : STATUS_UNABLE;
 }
 
 enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatures)

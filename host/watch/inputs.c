@@ -184,8 +184,10 @@ bool inputs_follow_spheres(struct inputs *inputs, char **sphere_files)
 char *inputs_read_scene(const struct inputs *inputs, size_t *length)
 {
     char *text = text_file_read(inputs->scene_path, true, SCENE_MAX_FILE_SIZE, length);
+    const int error = errno;
     if (!text)
-        fprintf(stderr, "%s: error: %s\n", inputs->scene_path, strerror(errno));
+        scene_refuse_file(inputs->scene_path, error);
+    errno = error;
     return text;
 }
 
@@ -212,13 +214,21 @@ enum status inputs_create(const char *scene_path, const char *shader_folder, str
     signal(SIGIO, SIG_IGN); /* comes where somebody opens a file for writing while we hold a lease */
     size_t scene_length;
     char *scene = inputs_read_scene(inputs, &scene_length);
+    enum status status = scene ? STATUS_DONE : input_file_status(errno);
+    off_t shader_size;
     errno = ENAMETOOLONG;
-    bool good =
-        scene && (size_t)length < sizeof inputs->shader_path && access(inputs->shader_path, R_OK) == 0;
-    if (scene && !good)
-        log_error("%s: %s; --shaders names the folder of whitted.comp", inputs->shader_path, strerror(errno));
+    int shader = (size_t)length < sizeof inputs->shader_path
+                     ? input_file_open(inputs->shader_path, true, &shader_size)
+                     : -1;
+    if (scene && shader < 0) {
+        status = input_file_status(errno);
+        log_error("%s: %s; --shaders names the folder of whitted.comp", inputs->shader_path,
+                  input_file_problem(errno));
+    }
+    if (shader >= 0)
+        close(shader);
     free(scene);
-    return good ? STATUS_DONE : STATUS_REFUSED;
+    return status;
 }
 
 void inputs_destroy(struct inputs *inputs)
