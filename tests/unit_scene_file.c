@@ -41,7 +41,7 @@ static void expected_report(const char *text, const char *message, char *out, si
     char quoted[512] = "", shown[ESCAPED_SIZE];
     for (const char *end = text + strcspn(text, "\n"); text < end;) {
         text += escape_character(text, (size_t)(end - text), shown);
-        strcat(quoted, shown);
+        strcat(quoted, strcmp(shown, "\\x09") == 0 ? "\t" : shown);
     }
     snprintf(out, size, "bad.yaml:%s\n%s\n%*s\n", message, quoted, column, "^");
 }

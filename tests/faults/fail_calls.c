@@ -1,11 +1,12 @@
 /* A library to be preloaded: one call of the program or its libraries fails.
  *
  *   FAIL=CALL:N       the N-th call, from 0; N < 0: none
- *   FAIL_COUNT=FILE   gets, when the program ends, the number of calls, and of the program's own allocations that
- *                     were not freed
+ *   FAIL_COUNT=FILE   gets, when the program ends, the number of calls, and of the program's own allocations
+ * that were not freed
  *
- * CALL: memory (malloc, calloc and realloc: ENOMEM), open (EMFILE), read (EIO), write (ENOSPC), fsync (EIO), close
- * (EIO) or rename (EACCES). A crash says whose it is: "crash in OBJECT". */
+ * CALL: memory (malloc, calloc and realloc: ENOMEM), own (those that the program itself calls), open
+ * (EMFILE), read (EIO), write (ENOSPC), fsync (EIO), close (EIO) or rename (EACCES). A crash says whose it
+ * is: "crash in OBJECT". */
 #include <dlfcn.h>
 #include <errno.h>
 #include <execinfo.h>
@@ -28,8 +29,9 @@ void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *memory, size_t size);
 void __libc_free(void *memory);
 
-enum call { MEMORY, OPEN, READ, WRITE, FSYNC, CLOSE, RENAME, CALLS };
-static const char *const names[CALLS] = {"memory", "open", "read", "write", "fsync", "close", "rename"};
+enum call { MEMORY, OWN, OPEN, READ, WRITE, FSYNC, CLOSE, RENAME, CALLS };
+static const char *const names[CALLS] = {"memory", "own",   "open",  "read",
+                                         "write",  "fsync", "close", "rename"};
 
 static enum call failing = CALLS;
 static long failing_turn = -1;
@@ -42,7 +44,7 @@ static bool fails(enum call call)
 }
 
 /* The allocations that the program asked for itself. */
-enum { SLOTS = 1 << 20 };
+enum { SLOTS = 1 << 16 };
 static void *_Atomic slots[SLOTS];
 
 static size_t slot_of(const void *memory)
@@ -50,9 +52,19 @@ static size_t slot_of(const void *memory)
     return (size_t)((uintptr_t)memory >> 4) * 0x9E3779B1U % SLOTS;
 }
 
+static bool is_program(const void *caller)
+{
+    return (uintptr_t)caller >= program_start && (uintptr_t)caller < program_end;
+}
+
+static bool fails_to_allocate(const void *caller)
+{
+    return fails(MEMORY) || (is_program(caller) && fails(OWN));
+}
+
 static void note(void *memory, const void *caller)
 {
-    if (!memory || (uintptr_t)caller < program_start || (uintptr_t)caller >= program_end)
+    if (!memory || !is_program(caller))
         return;
     for (size_t i = slot_of(memory), tries = 0; tries < 64; i = (i + 1) % SLOTS, ++tries) {
         void *empty = NULL;
@@ -78,25 +90,28 @@ static void *no_memory(void)
 
 void *malloc(size_t size)
 {
-    void *memory = fails(MEMORY) ? no_memory() : __libc_malloc(size);
-    note(memory, __builtin_return_address(0));
+    const void *caller = __builtin_return_address(0);
+    void *memory = fails_to_allocate(caller) ? no_memory() : __libc_malloc(size);
+    note(memory, caller);
     return memory;
 }
 
 void *calloc(size_t count, size_t size)
 {
-    void *memory = fails(MEMORY) ? no_memory() : __libc_calloc(count, size);
-    note(memory, __builtin_return_address(0));
+    const void *caller = __builtin_return_address(0);
+    void *memory = fails_to_allocate(caller) ? no_memory() : __libc_calloc(count, size);
+    note(memory, caller);
     return memory;
 }
 
 void *realloc(void *old, size_t size)
 {
-    if (fails(MEMORY))
+    const void *caller = __builtin_return_address(0);
+    if (fails_to_allocate(caller))
         return no_memory();
     forget(old);
     void *memory = __libc_realloc(old, size);
-    note(memory, __builtin_return_address(0));
+    note(memory, caller);
     return memory;
 }
 
