@@ -102,13 +102,15 @@ static bool may_be_anchor(const char *text, size_t length, size_t at)
 static bool is_mark(const char *text, size_t length, size_t at)
 {
     const bool before_blank = at + 1 == length || isspace((unsigned char)text[at + 1]);
-    return strchr(",[{:'!", text[at]) || (before_blank && (text[at] == '-' || text[at] == '?'));
+    return strchr(",[{:'!*", text[at]) || (before_blank && (text[at] == '-' || text[at] == '?'));
 }
 
-/* libfyaml's time grows with the square of such a line's length. */
-static bool is_version(const char *text, size_t at)
+/* "%YAML 1.2"; libfyaml's time grows with the square of such a line's length. */
+static bool is_version(const char *text, size_t length, size_t at)
 {
-    return at == 0 && strncmp(text, "%YAML ", 6) == 0 && strcspn(text, "\r\n") < 20;
+    static const char version[] = "%YAML ";
+    return at == 0 && length >= sizeof version && memcmp(text, version, sizeof version - 1) == 0 &&
+           memchr(text, '\n', length < 20 ? length : 20);
 }
 
 /* What libfyaml 0.7.12 does not say no to, or takes too long to: it drops what follows a NUL or bad UTF-8. */
@@ -128,7 +130,7 @@ static void check_characters(struct diagnostics *report)
             report_error(report, place, "more than %d anchors", MAX_ANCHORS);
         else if (marks > MAX_MARKS)
             report_error(report, place, "more than %d values; many spheres belong into an array", MAX_MARKS);
-        else if (text[at] == '%' && place.column == 1 && !is_version(text, at))
+        else if (text[at] == '%' && place.column == 1 && !is_version(text, report->length, at))
             report_error(report, place, "scene files have no YAML directives but %%YAML");
         place.column++;
         if (text[at] == '\n' || (text[at] == '\r' && (at + 1 == report->length || text[at + 1] != '\n')))
@@ -150,7 +152,7 @@ static struct fy_document *parse(struct diagnostics *report, struct fy_parser *p
         if (error->type == FYET_ERROR)
             report_error(report, (struct scene_place){error->line, error->column}, "YAML syntax: %s",
                          error->msg);
-    if (report->count == 0 && fy_parser_get_stream_error(parser))
+    if (report->count == 0 && errno != ENOMEM && fy_parser_get_stream_error(parser))
         report_error(report, (struct scene_place){1, 1}, "not YAML 1.2 from here on");
     return document;
 }
