@@ -10,8 +10,11 @@ endfunction()
 
 add_unit_test(bench)
 target_link_options(unit_bench PRIVATE -Wl,--wrap=calloc,--wrap=malloc) # to have them fail
+add_unit_test(building)
+target_link_options(unit_building PRIVATE -Wl,--wrap=clock_ms) # to have time fly
 add_unit_test(camera_motion)
 add_unit_test(compare)
+add_unit_test(escape)
 add_unit_test(fit)
 add_unit_test(float_controls)
 add_unit_test(image)
@@ -26,8 +29,7 @@ add_unit_test(progress)
 add_unit_test(scene_file)
 add_unit_test(inputs)
 add_unit_test(compiler)
-target_compile_definitions(unit_compiler PRIVATE SHADER_DEBUG_INFO=$<BOOL:${VKWHITTED_SHADER_DEBUG_INFO}>
-                                                  OPTIMIZED_SHADERS=$<BOOL:${VKWHITTED_OPTIMIZE_SHADERS}>)
+target_compile_definitions(unit_compiler PRIVATE SHADER_DEBUG_INFO=$<BOOL:${VKWHITTED_SHADER_DEBUG_INFO}>)
 add_unit_test(srgb)
 add_unit_test(warnings)
 add_unit_test(text_file)

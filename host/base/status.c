@@ -48,4 +48,5 @@ void report_line(const char *format, ...)
 void log_set_verbosity(int verbosity)
 {
     log_verbosity = verbosity;
+    progress_allow(verbosity >= 0);
 }

@@ -30,7 +30,7 @@ static enum status run(int argc, char **argv)
         help_print_version();
     else if (status == STATUS_DONE)
         status = commands[options.command].run(&options);
-    free(options.outputs);
+    options_destroy(&options);
     return status;
 }
 

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/progress.h"
 #include "base/text_file.h"
 #include "scene/scene.h"
 
@@ -94,6 +95,8 @@ static enum status read_values(struct reading *reading)
     size_t left = reading->header.rows * NPY_COLUMNS * reading->header.value_size;
     unsigned char *piece = malloc(PIECE);
     enum status status = STATUS_DONE;
+    struct progress progress;
+    progress_start(&progress, "reading spheres", left, false);
     if (!piece || !reading->rows) {
         snprintf(reading->message, NPY_MESSAGE, "no memory for %zu spheres", reading->header.rows);
         status = STATUS_UNABLE;
@@ -108,7 +111,9 @@ static enum status read_values(struct reading *reading)
             status = refuse(reading->message, "is truncated: it became shorter while it was read");
         else
             status = take_values(reading, piece, size);
+        progress_advance(&progress, size);
     }
+    progress_end(&progress);
     free(piece);
     return status;
 }

@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include "base/progress.h"
 #include "scene/body.h"
 #include "scene/pack.h"
 
@@ -112,6 +113,8 @@ static struct query find_partners(const struct search *search, size_t number, si
 static void find_pairs(const struct search *search, struct overlaps *overlaps)
 {
     size_t pairs = 0, later = SIZE_MAX;
+    struct progress progress;
+    progress_start(&progress, "looking for overlaps", search->body_count, false);
     for (size_t first = 0, size = FIRST_BLOCK, end; first < search->body_count && pairs < OVERLAP_MOST_PAIRS;
          first = end, size = size < MOST_IN_BLOCK ? 2 * size : size) {
         end = search->body_count - first < size ? search->body_count : first + size;
@@ -122,7 +125,9 @@ static void find_pairs(const struct search *search, struct overlaps *overlaps)
             pairs += found;
             later = found > 0 && i < later ? i : later;
         }
+        progress_advance(&progress, end - first);
     }
+    progress_end(&progress);
     if (pairs == 0)
         return;
     overlaps->pairs = pairs < OVERLAP_MOST_PAIRS ? pairs : OVERLAP_MOST_PAIRS;

@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "scene/body.h"
 #include "scene/hollow.h"
@@ -19,6 +20,8 @@ struct packing {
     const struct scene *scene;
     double scale; /* from metres to scene units, a power of two */
     struct looped looped;
+    const struct packed_scene *other; /* whose hierarchy may be shared; may be NULL */
+    int others_before;                /* spheres that are not looped over, before the body that is packed */
     struct packed_scene *packed;
 };
 
@@ -97,6 +100,7 @@ static void pack_body(struct packing *packing, const struct scene_object *object
     struct packed_scene *packed = packing->packed;
     const struct body body = body_of(object, row);
     PackedSurface surface = pack_surface(packing->scene, object, order);
+    surface.tags.OTHERS_BEFORE = packing->others_before;
     bool turned = !body.is_ball && !is_transparent(&surface) &&
                   body_distance(body, dvec3_of(packing->scene->camera.position)) < 0;
     double sign = turned ? -1 : 1;
@@ -124,6 +128,8 @@ static void pack_planes_and_looped(struct packing *packing)
         for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row, ++order)
             if (scene->objects[i].type == OBJECT_PLANE || is_looped(&packing->looped, sphere++))
                 pack_body(packing, &scene->objects[i], row, order);
+            else
+                ++packing->others_before;
 }
 
 /* The other spheres of an object, whose first body has that place in the file; *sphere is its first one's
@@ -144,6 +150,36 @@ static void pack_rows(struct packing *packing, const struct scene_object *object
         packed->surfaces[packed->surface_count++] = pack_surface(packing->scene, object, order);
 }
 
+/* Whether the spheres that are not looped over are the same. */
+static bool same_others(const struct packed_scene *a, const struct packed_scene *b)
+{
+    bool same = a->sphere_count == b->sphere_count && a->looped_spheres == b->looped_spheres;
+    for (int i = a->looped_spheres; i < a->sphere_count && same; ++i)
+        same = memcmp(&a->spheres[i].center_radius, &b->spheres[i].center_radius, sizeof(layout_vec4)) == 0;
+    return same;
+}
+
+static enum status find_hierarchy(struct packing *packing)
+{
+    struct packed_scene *packed = packing->packed;
+    if (packing->other && packing->other->hierarchy && same_others(packing->other, packed)) {
+        packed->hierarchy = packing->other->hierarchy;
+        ++packed->hierarchy->owners;
+        return STATUS_DONE;
+    }
+    struct hierarchy *hierarchy = calloc(1, sizeof *hierarchy);
+    if (!hierarchy) {
+        log_error("%s: no memory for a hierarchy", packing->scene->path);
+        return STATUS_UNABLE;
+    }
+    enum status status =
+        hierarchy_build(packed->spheres, (uint32_t)packed->looped_spheres,
+                        (uint32_t)(packed->sphere_count - packed->looped_spheres), hierarchy);
+    hierarchy->owners = 1;
+    packed->hierarchy = hierarchy;
+    return status;
+}
+
 static enum status pack_others(struct packing *packing)
 {
     const struct scene *scene = packing->scene;
@@ -155,15 +191,7 @@ static enum status pack_others(struct packing *packing)
             pack_rows(packing, &scene->objects[i], order, &sphere);
         order += (int)object_body_count(&scene->objects[i]);
     }
-    if (packed->sphere_count == packed->looped_spheres)
-        return STATUS_DONE;
-    packed->hierarchy = calloc(1, sizeof *packed->hierarchy);
-    if (!packed->hierarchy) {
-        log_error("%s: no memory for a hierarchy", scene->path);
-        return STATUS_UNABLE;
-    }
-    return hierarchy_build(packed->spheres, (uint32_t)packed->looped_spheres,
-                           (uint32_t)(packed->sphere_count - packed->looped_spheres), packed->hierarchy);
+    return packed->sphere_count == packed->looped_spheres ? STATUS_DONE : find_hierarchy(packing);
 }
 
 static bool lies_behind(const struct packed_scene *packed, int plane, struct dvec3 point)
@@ -242,7 +270,7 @@ static enum status pack_contents(struct packing *packing)
         status = pack_light(packing, &scene->lights[i]);
     if (status != STATUS_DONE)
         return status;
-    hollow_pack(packing->packed);
+    hollow_pack(packing->other, packing->packed);
     share_roughness(packing->packed);
     return STATUS_DONE;
 }
@@ -273,6 +301,12 @@ double pack_scale(const struct scene *scene)
 enum status pack_scene(const struct scene *scene, const struct picture_settings *settings,
                        struct packed_scene *packed)
 {
+    return pack_scene_beside(NULL, scene, settings, packed);
+}
+
+enum status pack_scene_beside(const struct packed_scene *other, const struct scene *scene,
+                              const struct picture_settings *settings, struct packed_scene *packed)
+{
     const struct looped looped = looped_choose(scene);
     *packed = (struct packed_scene){
         .width = (int)settings->width,
@@ -286,7 +320,8 @@ enum status pack_scene(const struct scene *scene, const struct picture_settings 
         .point_lights = calloc(scene->light_count + 1, sizeof *packed->point_lights),
         .quad_lights = calloc(scene->light_count + 1, sizeof *packed->quad_lights),
     };
-    struct packing packing = {.scene = scene, .scale = pack_scale(scene), .looped = looped, .packed = packed};
+    struct packing packing = {
+        .scene = scene, .scale = pack_scale(scene), .looped = looped, .other = other, .packed = packed};
     enum status status = STATUS_UNABLE;
     if (packed->spheres && packed->surfaces && packed->planes && packed->point_lights && packed->quad_lights)
         status = pack_contents(&packing);
@@ -304,9 +339,10 @@ void pack_destroy(struct packed_scene *packed)
 {
     free(packed->spheres);
     free(packed->surfaces);
-    if (packed->hierarchy)
+    if (packed->hierarchy && --packed->hierarchy->owners == 0) {
         hierarchy_destroy(packed->hierarchy);
-    free(packed->hierarchy);
+        free(packed->hierarchy);
+    }
     free(packed->planes);
     free(packed->point_lights);
     free(packed->quad_lights);

@@ -20,6 +20,11 @@ struct picture_settings {
  * the scene's size, STATUS_UNABLE without memory. */
 enum status pack_scene(const struct scene *scene, const struct picture_settings *settings,
                        struct packed_scene *packed);
+
+/* The same; where the other packed scene has the same spheres, its hierarchy is shared, not built again. It
+ * may be NULL. */
+enum status pack_scene_beside(const struct packed_scene *other, const struct scene *scene,
+                              const struct picture_settings *settings, struct packed_scene *packed);
 void pack_destroy(struct packed_scene *packed);
 
 /* Scene units in a metre, a power of two. */

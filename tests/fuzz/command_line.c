@@ -29,7 +29,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (status != STATUS_DONE && status != STATUS_REFUSED && status != STATUS_UNABLE)
         abort();
     output_file_release();
-    free(options.outputs);
+    options_destroy(&options);
     free(text);
     return 0;
 }
