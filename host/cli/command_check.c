@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/clock.h"
+#include "check/float_limit.h"
 #include "check/heatmap.h"
 #include "check/judge.h"
 #include "check/junit.h"
@@ -148,9 +149,10 @@ static enum status check_scene(struct check *check, const char *scene)
     enum status status = job_create(&check->options->job, scene, &job);
     if (status != STATUS_DONE)
         return status;
-    if (check->options->against == PRECISION_FLOAT)
+    status = float_limit_warn(&job);
+    if (status == STATUS_DONE && check->options->against == PRECISION_FLOAT)
         status = check_by_reference(check, scene, &job.plan);
-    else
+    else if (status == STATUS_DONE)
         status = check_by_exact_picture(check, scene, &job.plan);
     job_destroy(&job);
     return status;
