@@ -69,7 +69,7 @@ struct dispatcher {
 
 /* What the buffer of EVENTS begins with. As EventBlock in shaders/events.glsl. */
 struct event_block {
-    uint32_t count, room, first_of_sample, unused;
+    uint32_t count, room, unused[2];
 };
 
 /* Builds the pipeline; info must outlive the dispatcher. On failure (reported) *dispatcher is empty. */
