@@ -14,6 +14,7 @@ add_unit_test(building)
 target_link_options(unit_building PRIVATE -Wl,--wrap=clock_ms) # to have time fly
 add_unit_test(camera_motion)
 add_unit_test(compare)
+add_unit_test(escape)
 add_unit_test(fit)
 add_unit_test(float_controls)
 add_unit_test(image)

@@ -22,11 +22,6 @@ struct check {
     char reason[256 + PATH_MAX]; /* why the last scene failed that did */
 };
 
-static enum status worse(enum status a, enum status b)
-{
-    return a > b ? a : b;
-}
-
 /* The file for the heatmap of a scene with this status; NULL: none. In a folder it has the scene's path
  * without suffix, with - for /. */
 static const char *heatmap_path(const struct options *options, const char *scene, enum status status,
@@ -74,7 +69,8 @@ static enum status compare(struct check *check, const char *scene, const struct 
     status = comparison.differing <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
     comparison_print(&comparison, scene, options->allow);
     if (options->json)
-        status = worse(status, add_result(check, scene, comparison_json(&comparison, scene, options->allow)));
+        status = status_worse(status,
+                              add_result(check, scene, comparison_json(&comparison, scene, options->allow)));
     snprintf(check->reason, sizeof check->reason,
              "%zu pixels differ, the first at (%u, %u), the largest error %.9g at (%u, %u)",
              comparison.differing, comparison.first_x, comparison.first_y, comparison.max_error, comparison.x,
@@ -82,7 +78,7 @@ static enum status compare(struct check *check, const char *scene, const struct 
     char path[PATH_MAX];
     const char *heatmap = heatmap_path(options, scene, status, path);
     name_heatmap(check, heatmap);
-    return heatmap ? worse(status, heatmap_write(device, reference, heatmap)) : status;
+    return heatmap ? status_worse(status, heatmap_write(device, reference, heatmap)) : status;
 }
 
 /* Compares the device's picture with the reference's in the same precision. */
@@ -113,14 +109,14 @@ static enum status judge(struct check *check, const char *scene, const struct im
     status = judgement.unexplained <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
     judgement_print(&judgement, scene, precision, options->allow);
     if (options->json)
-        status = worse(
+        status = status_worse(
             status, add_result(check, scene, judgement_json(&judgement, scene, precision, options->allow)));
     snprintf(check->reason, sizeof check->reason, "%zu pixels unexplained, the first at (%u, %u)",
              judgement.unexplained, judgement.unexplained_x, judgement.unexplained_y);
     char path[PATH_MAX];
     const char *heatmap = heatmap_path(options, scene, status, path);
     name_heatmap(check, heatmap);
-    return heatmap ? worse(status, judgement_heatmap(image, explanations, heatmap)) : status;
+    return heatmap ? status_worse(status, judgement_heatmap(image, explanations, heatmap)) : status;
 }
 
 /* Judges the device's picture, or without a device that of the reference's float build, by the exact picture.
@@ -176,21 +172,20 @@ enum status command_check(const struct options *options)
         return status;
     check.results = json_array();
     junit_create(&check.junit);
-    for (size_t i = 0; i < options->scene_count && status != STATUS_INTERRUPTED; ++i) {
+    for (size_t i = 0; i < options->scene_count; ++i) {
         const double start = clock_ms();
         const enum status outcome = check_scene(&check, options->scenes[i]);
         junit_add(&check.junit, options->scenes[i], (clock_ms() - start) / 1e3, outcome, check.reason);
-        status = worse(status, outcome);
+        status = status_worse(status, outcome);
     }
     const char *device = check.context ? check.context->properties.deviceName : "cpu";
-    if (options->json && status != STATUS_INTERRUPTED) {
+    if (options->json && json_array_size(check.results) > 0) {
         json_t *document = json_pack("{s:s, s:s, s:O}", "device", device, "driver",
                                      check.context ? check.context->driver.driverInfo : "plain-C reference",
                                      "scenes", check.results);
-        status = worse(status, json_write(document, options->json));
+        status = status_worse(status, json_write(document, options->json));
     }
     json_decref(check.results);
-    status = worse(status,
-                   junit_write(&check.junit, device, status == STATUS_INTERRUPTED ? NULL : options->junit));
-    return worse(status, vulkan_context_destroy(&check.context));
+    status = status_worse(status, junit_write(&check.junit, device, options->junit));
+    return status_worse(status, vulkan_context_destroy(&check.context));
 }

@@ -1,6 +1,7 @@
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/output_file.h"
@@ -193,18 +194,38 @@ static enum status find_scenes(struct options *options)
     return STATUS_DONE;
 }
 
-/* Whether all outputs can be written, before anything is computed. */
-static enum status check_outputs(const struct options *options)
+static const char *file_of(const struct option_entry *option, const struct options *options,
+                           bool (*kind)(const struct option_entry *, const char *, void *))
 {
-    const char *const paths[] = {options->stats,  options->json,
-                                 options->junit,  options_heatmap_folder(options) ? NULL : options->heatmap,
-                                 options->report, options->csv};
+    return option->read == kind ? *(const char *const *)((const char *)options + option->offset) : NULL;
+}
+
+static enum status check_input(const char *path)
+{
+    struct stat identity;
+    const char *output = path && stat(path, &identity) == 0 ? output_file_claimed(&identity) : NULL;
+    if (!output)
+        return STATUS_DONE;
+    log_error("%s: is read, and is to be written as %s", path, output);
+    return STATUS_REFUSED;
+}
+
+/* Whether all outputs can be written, and are neither each other nor an input, before anything is computed.
+ */
+static enum status check_files(const struct options *options)
+{
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
         status = image_write_check(options->outputs[i]);
-    for (size_t i = 0; i < sizeof paths / sizeof *paths && status == STATUS_DONE; ++i)
-        if (paths[i])
-            status = output_file_check(paths[i]);
+    for (const struct option_entry *option = option_table; option->help && status == STATUS_DONE; ++option) {
+        const char *path = file_of(option, options, read_output_file);
+        if (path && !(path == options->heatmap && options_heatmap_folder(options)))
+            status = output_file_claim(path);
+    }
+    for (const struct option_entry *option = option_table; option->help && status == STATUS_DONE; ++option)
+        status = check_input(file_of(option, options, read_input_file));
+    for (size_t i = 0; i < options->scene_count && status == STATUS_DONE; ++i)
+        status = check_input(options->scenes[i]);
     return status;
 }
 
@@ -238,7 +259,7 @@ enum status command_line_read(int argc, char **argv, struct options *options)
         status = read_place(options);
     if (status == STATUS_DONE)
         status = find_scenes(options);
-    return status == STATUS_DONE ? check_outputs(options) : status;
+    return status == STATUS_DONE ? check_files(options) : status;
 }
 
 void options_destroy(struct options *options)

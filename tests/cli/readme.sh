@@ -22,18 +22,10 @@ END
 # What changes the machine, or takes other tests their time, is done only in name.
 for name in bootstrap cpack sudo apt-get sbatch; do printf '#!/bin/sh\nexit 0\n' >bin/$name; done
 cat >bin/parallel <<'END'
-<<<<<<< HEAD
-#!/bin/bash
-# Here, and without a device: the same bits in less time.
-while [ "$1" != vkwhitted ]; do shift; done
-while [ "$1" != ::: ]; do words+=("$1") && shift; done
-for tile in "${@:2}"; do "${words[@]//'{}'/$tile}" --backend cpu || exit; done
-=======
 #!/bin/bash -e
 # What GNU parallel has hosts do, with as many rows as tiles.
 [ "${*: -18:2}" = '{}.exr :::' ]
 for i in "${@: -16}"; do vkwhitted render -q scenes/figure_4.yaml --size 12x16 --tile $i/16 -o $i.exr; done
->>>>>>> join
 END
 chmod +x bin/*
 ln -s "$PWD/bin/vkwhitted" build/vkwhitted
