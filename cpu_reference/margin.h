@@ -2,7 +2,7 @@
  * section 3.3), carried along by the high-precision build: how far the float run may be from the exact one at
  * each quantity, to first order, and how far each decision is from going the other way. NUMERICS.md derives
  * the formulas. All errors are absolute and in scene units, radians or radiance. A margin is the distance to
- * the other outcome in units of the error: below 1, float may decide otherwise. */
+ * the other outcome in units of the error: below 1, float may decide otherwise. It is never NaN. */
 #ifndef REFERENCE_MARGIN_H
 #define REFERENCE_MARGIN_H
 
@@ -33,6 +33,25 @@ static inline double larger(double a, double b)
     return a > b ? a : b;
 }
 
+/* Of value > 0, value being known up to error; 0 where the analysis knows neither. */
+static inline double margin_of(double value, double error)
+{
+    double margin = fabs(value) / error;
+    return error == 0 ? INFINITY : margin >= 0 ? margin : 0;
+}
+
+/* How far the root of a square, 0 where that is negative, may be off, if the square may be by e_square. */
+static inline double root_error(double square, double e_square)
+{
+    return square > e_square ? e_square / (sqrt(square) + sqrt(square - e_square)) : sqrt(e_square);
+}
+
+/* Of 1 / value, value > 0 being known up to error; huge where that may be 0. */
+static inline double relative_error(double value, double error)
+{
+    return error < value ? error / (value - error) : 0x1p60;
+}
+
 struct ray_error {
     double origin;    /* length */
     double direction; /* radians */
@@ -53,7 +72,7 @@ static inline struct conjunction conjunction_begin(void)
 /* value > 0, value being known up to error. */
 static inline void require_positive(struct conjunction *decision, double value, double error)
 {
-    double margin = fabs(value) / error;
+    double margin = margin_of(value, error);
     if (value > 0) {
         decision->weakest = smaller(decision->weakest, margin);
     } else {
@@ -81,7 +100,7 @@ static inline struct tracked_approach track_approach(layout_vec4 center_radius, 
     struct approach approach = approach_sphere(to_center, direction, center_radius.w);
     double apart = length(to_center), radius = (double)center_radius.w;
     double center_offset = length(approach.center_offset);
-    double half_chord = (double)square_root(at_least_zero(approach.half_chord_squared));
+    double half_chord_squared = (double)at_least_zero(approach.half_chord_squared);
     double e_clearance =
         error.origin + fabs((double)approach.along) * error.direction + rounding(apart + radius);
     return (struct tracked_approach){
@@ -89,9 +108,8 @@ static inline struct tracked_approach track_approach(layout_vec4 center_radius, 
         .e_along = error.origin + apart * error.direction + rounding(apart),
         .clearance = (double)approach.half_chord_squared / (radius + center_offset),
         .e_clearance = e_clearance,
-        .half_chord = half_chord,
-        /* of the root of a quantity with error 2 radius e_clearance, which may be near 0 */
-        .e_half_chord = smaller(radius * e_clearance / half_chord, sqrt(2 * radius * e_clearance)),
+        .half_chord = sqrt(half_chord_squared),
+        .e_half_chord = root_error(half_chord_squared, 2 * radius * e_clearance),
     };
 }
 
@@ -99,7 +117,7 @@ static inline struct tracked_approach track_approach(layout_vec4 center_radius, 
 static inline double inside_margin(layout_vec4 center_radius, struct vec3 point, double e_point)
 {
     double apart = length(subtract(vector_of(center_radius), point)), radius = (double)center_radius.w;
-    return fabs(apart - radius) / (e_point + rounding(apart + radius));
+    return margin_of(apart - radius, e_point + rounding(apart + radius));
 }
 
 static inline bool contains(const struct PackedSphere *sphere, struct vec3 point)
@@ -107,19 +125,20 @@ static inline bool contains(const struct PackedSphere *sphere, struct vec3 point
     return lies_inside(subtract(vector_of(sphere->center_radius), point), sphere->center_radius.w);
 }
 
-/* Error of a distance along the ray to the surface, which the ray meets. */
+/* Error of a distance along the ray to the surface, which the ray meets; INFINITY where float may take the
+ * ray to run along a plane. */
 static inline double distance_error(const struct packed_scene *scene, const struct ray *ray, int surface,
                                     double distance, struct ray_error error)
 {
     if (surface < scene->sphere_count) {
         struct tracked_approach approach =
             track_approach(scene->spheres[surface].center_radius, ray->origin, ray->direction, error);
-        return approach.e_along + approach.e_half_chord;
+        return approach.e_along + (ray->surface == surface ? approach.e_along : approach.e_half_chord);
     }
     layout_vec4 plane = scene->planes[surface - scene->sphere_count].normal_offset;
-    double slope = fabs((double)dot(vector_of(plane), ray->direction));
+    double slope = fabs((double)dot(vector_of(plane), ray->direction)) - error.direction - rounding(1);
     double size = length(ray->origin) + fabs((double)plane.w) + distance;
-    return (error.origin + distance * error.direction + rounding(size)) / slope;
+    return slope > 0 ? (error.origin + distance * error.direction + rounding(size)) / slope : INFINITY;
 }
 
 /* Margin of a sphere's not being the nearest hit, which is at nearest_distance +- e_nearest. */
@@ -127,19 +146,18 @@ static inline double sphere_margin(const struct packed_scene *scene, int i, cons
                                    struct ray_error error, double nearest_distance, double e_nearest)
 {
     const struct PackedSphere *sphere = &scene->spheres[i];
-    if (ray->surface == i)
-        return INFINITY; /* certain either way */
     struct tracked_approach approach =
         track_approach(sphere->center_radius, ray->origin, ray->direction, error);
+    if (ray->surface == i) /* certain to be met, at its far side, or certain not to be */
+        return ray->inward
+                   ? margin_of(nearest_distance - 2 * approach.along, e_nearest + 2 * approach.e_along)
+                   : INFINITY;
     double margin = INFINITY;
     if (sphere->tags.HOLDS_RAYS != 0) {
         margin = inside_margin(sphere->center_radius, ray->origin, error.origin);
-        if (contains(sphere, ray->origin)) { /* certain to be met, at its far side */
-            double back = approach.along + approach.half_chord;
-            double behind =
-                fabs(nearest_distance - back) / (e_nearest + approach.e_along + approach.e_half_chord);
-            return smaller(margin, behind);
-        }
+        if (contains(sphere, ray->origin)) /* likewise */
+            return smaller(margin, margin_of(nearest_distance - approach.along - approach.half_chord,
+                                             e_nearest + approach.e_along + approach.e_half_chord));
     }
     struct conjunction met = conjunction_begin();
     require_positive(&met, approach.along, approach.e_along);
@@ -150,32 +168,40 @@ static inline double sphere_margin(const struct packed_scene *scene, int i, cons
     return smaller(margin, conjunction_margin(&met));
 }
 
+/* Whether the ray meets the side of a plane on which its height is positive, before the nearest distance. */
+static inline struct conjunction side_met(const struct PackedPlane *plane, double slope, double e_slope,
+                                          double height, double e_height, double nearest_distance,
+                                          double e_nearest)
+{
+    struct conjunction met = conjunction_begin();
+    require_positive(&met, -slope, e_slope);
+    if (plane->surface.tags.SURFACE_KIND == KIND_TRANSPARENT)
+        require_positive(&met, height, e_height); /* of opaque planes known */
+    /* height / -slope < nearest_distance, without dividing by a slope near 0 */
+    require_positive(&met, nearest_distance * -slope - height,
+                     e_height + nearest_distance * e_slope + e_nearest * fabs(slope));
+    return met;
+}
+
 static inline double plane_margin(const struct packed_scene *scene, int i, const struct ray *ray,
                                   struct ray_error error, double nearest_distance, double e_nearest)
 {
     const struct PackedPlane *plane = &scene->planes[i];
-    int surface = scene->sphere_count + i;
-    if (ray->surface == surface)
+    if (ray->surface == scene->sphere_count + i)
         return INFINITY;
     struct vec3 normal = vector_of(plane->normal_offset);
     double slope = (double)dot(normal, ray->direction);
     double height = (double)(dot(normal, ray->origin) - plane->normal_offset.w);
     double e_slope = error.direction + rounding(1);
     double e_height = error.origin + rounding(length(ray->origin) + fabs((double)plane->normal_offset.w));
-    if (plane->surface.tags.SURFACE_KIND != KIND_TRANSPARENT) {
-        height = larger(height, 0); /* known */
-    } else if (height < 0) {
-        height = -height;
-        slope = -slope;
-    }
-    struct conjunction met = conjunction_begin();
-    require_positive(&met, -slope, e_slope);
-    if (plane->surface.tags.SURFACE_KIND == KIND_TRANSPARENT)
-        require_positive(&met, height, e_height);
-    /* height / -slope < nearest_distance, without dividing by a slope near 0 */
-    require_positive(&met, nearest_distance * -slope - height,
-                     e_height + nearest_distance * e_slope + e_nearest * fabs(slope));
-    return conjunction_margin(&met);
+    bool opaque = plane->surface.tags.SURFACE_KIND != KIND_TRANSPARENT;
+    struct conjunction front = side_met(plane, slope, e_slope, opaque ? larger(height, 0) : height, e_height,
+                                        nearest_distance, e_nearest);
+    if (opaque || front.holds)
+        return conjunction_margin(&front);
+    struct conjunction back =
+        side_met(plane, -slope, e_slope, -height, e_height, nearest_distance, e_nearest);
+    return back.holds ? back.weakest : smaller(front.strongest_failure, back.strongest_failure);
 }
 
 /* As tree_line(), of what float makes of the line: the tree rules out what has a margin of `wanted` at least,
@@ -220,10 +246,9 @@ static inline double tree_margin(const struct packed_scene *scene, const struct 
     return margin;
 }
 
-/* Margin of the choice of the nearest hit (or of none). Where it is at least `wanted`, which is at most 1,
- * any such number. */
+/* Margin of the choice of the nearest hit (or of none). One of at least 1 may be larger with a tree. */
 static inline double hit_margin(const struct packed_scene *scene, const struct ray *ray,
-                                struct ray_error error, const struct hit *hit, double wanted)
+                                struct ray_error error, const struct hit *hit)
 {
     bool none = hit->surface == NO_SURFACE;
     double distance = none ? FARTHEST_HIT : (double)hit->distance;
@@ -232,8 +257,8 @@ static inline double hit_margin(const struct packed_scene *scene, const struct r
     for (int i = 0; i < tried_spheres(scene); ++i)
         margin = smaller(margin, choice_margin(scene, i, ray, error, hit, distance, e_distance));
     if (scene->tree)
-        margin = smaller(margin,
-                         tree_margin(scene, ray, error, hit, distance, e_distance, smaller(margin, wanted)));
+        margin =
+            smaller(margin, tree_margin(scene, ray, error, hit, distance, e_distance, smaller(margin, 1)));
     for (int i = 0; i < scene->plane_count; ++i) {
         bool nearest = scene->sphere_count + i == hit->surface;
         margin = smaller(margin, plane_margin(scene, i, ray, error, nearest ? FARTHEST_HIT : distance,
@@ -258,7 +283,8 @@ static inline struct hit_error track_hit(const struct packed_scene *scene, const
     layout_vec4 sphere = scene->spheres[hit->surface].center_radius;
     struct tracked_approach approach = track_approach(sphere, ray->origin, ray->direction, error);
     double radius = (double)sphere.w;
-    double normal = approach.e_clearance / approach.half_chord + rounding(1);
+    double normal =
+        approach.e_half_chord / radius + rounding(1); /* e_clearance / half_chord, or what it can be */
     return (struct hit_error){
         .normal = normal,
         .point = radius * normal + rounding(size + radius),
@@ -276,6 +302,12 @@ static inline double track_reflection(double e_direction, double e_normal)
     return e_direction + 2 * e_normal + rounding(2);
 }
 
+/* The most that is transmitted, if cos_out is at most this, and cos_in at least that. */
+static inline double most_transmitted(double cos_in, double cos_out, double eta)
+{
+    return cos_in > 0 ? smaller(2 * (cos_out / cos_in) * (eta + 1 / eta), 1) : 1;
+}
+
 static inline struct dielectric_error track_refraction(double cos_in, double eta, double kappa,
                                                        double e_direction, double e_normal)
 {
@@ -284,17 +316,20 @@ static inline struct dielectric_error track_refraction(double cos_in, double eta
     double squared = kappa + eta_cos * eta_cos;
     double e_squared = 2 * eta * eta_cos * e_cos_in + eta * eta * e_cos_in * e_cos_in +
                        rounding(fabs(kappa) + eta_cos * eta_cos);
-    struct dielectric_error error = {.margin = fabs(squared) / e_squared};
+    struct dielectric_error error = {.margin = margin_of(squared, e_squared)};
+    double cos_out = sqrt(larger(squared, 0)), e_cos_out = root_error(squared, e_squared);
+    if (error.margin < 1)
+        error.reflectance = most_transmitted(cos_in - e_cos_in, cos_out + e_cos_out, eta);
     if (squared <= 0)
         return error;
-    double cos_out = sqrt(squared);
-    double e_cos_out = smaller(e_squared / cos_out, sqrt(e_squared));
-    double sum = eta_cos + cos_out, e_sum = eta * e_cos_in + e_cos_out;
+    double sum = eta_cos + cos_out, e_sum = relative_error(sum, eta * e_cos_in + e_cos_out);
     double bend = fabs(kappa) / sum;
-    double e_bend = bend * (e_sum / sum) + rounding(bend);
+    double e_bend = bend * e_sum + rounding(bend);
     error.refracted_direction = eta * e_direction + e_bend + bend * e_normal + rounding(eta + bend);
+    if (error.margin < 1)
+        return error;
 
-    double r_s = bend / sum, e_r_s = r_s * (2 * e_sum / sum) + rounding(r_s);
+    double r_s = bend / sum, e_r_s = r_s * e_sum * (2 + e_sum) + rounding(r_s);
     double cosines = cos_in * cos_out, sines = eta * (1 - cos_in * cos_in);
     double e_cosines = cos_in * e_cos_out + cos_out * e_cos_in + rounding(cosines);
     double e_sines = 2 * eta_cos * e_cos_in + rounding(eta);
