@@ -4,12 +4,13 @@
 
 #include "check/heatmap.h"
 #include "check/judge.h"
+#include "check/verdict.h"
 #include "tracer/job.h"
 
 /* The command's state: results gets a JSON object for each scene. */
 struct check {
     const struct options *options;
-    struct vulkan_context *context; /* NULL with --backend cpu */
+    struct vulkan_context *context; /* NULL with --backend cpu and --picture */
     json_t *results;
 };
 
@@ -104,13 +105,71 @@ static enum status check_by_exact_picture(const struct check *check, const char 
     return status;
 }
 
+/* Where the picture's largest error is, as it is shown by the command that shows why. */
+static void print_command(const struct options *options, const char *scene, const struct verdicts *verdicts)
+{
+    const struct window *crop = &options->job.plan.window;
+    log_notice("see 'vkwhitted pixel %s %u %u --against %s', and the options of this picture", scene,
+               verdicts->x + crop->x, verdicts->y + crop->y, precision_name(options->against));
+}
+
+static enum status report_picture(const struct check *check, const char *scene,
+                                  const struct read_image *picture,
+                                  const struct reference_explanation *explanations)
+{
+    const struct options *options = check->options;
+    const char *precision = precision_name(options->against);
+    struct verdicts verdicts;
+    enum status status = verdicts_find(picture, explanations, &options->tolerance, &verdicts);
+    verdicts_print(&verdicts, scene, options->picture, precision, options->allow);
+    if (status == STATUS_DIFFERS)
+        print_command(options, scene, &verdicts);
+    status = verdicts_wrong(&verdicts) <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
+    if (options->json)
+        status = worse(
+            status, add_result(check, scene,
+                               verdicts_json(&verdicts, scene, options->picture, precision, options->allow)));
+    if (options->heatmap)
+        status =
+            worse(status, verdicts_heatmap(picture, explanations, &options->tolerance, options->heatmap));
+    return status;
+}
+
+/* Judges a file's picture by the exact one. */
+static enum status check_file(const struct check *check, const char *scene, const struct render_plan *plan)
+{
+    const struct options *options = check->options;
+    const struct window *window = &plan->window;
+    struct read_image picture;
+    struct reference_explanation *explanations = NULL;
+    enum status status = image_read(
+        options->picture,
+        &(struct image_wanted){window->x, window->y, window->width, window->height, options->transfer},
+        &picture);
+    if (status != STATUS_DONE)
+        return status;
+    if (plan->scene->quad_light_count > 0 && !options->has_tolerance)
+        log_warning(
+            "%s: a quad light is estimated with points of this program's choice; a picture that has others "
+            "differs by their noise, see --light-samples and --tolerance",
+            scene);
+    status = explain_on_cpu(plan, options->against, &explanations);
+    if (status == STATUS_DONE)
+        status = report_picture(check, scene, &picture, explanations);
+    free(explanations);
+    read_image_destroy(&picture);
+    return status;
+}
+
 static enum status check_scene(const struct check *check, const char *scene)
 {
     struct job job;
     enum status status = job_create(&check->options->job, scene, &job);
     if (status != STATUS_DONE)
         return status;
-    if (check->options->against == PRECISION_FLOAT)
+    if (check->options->picture)
+        status = check_file(check, scene, &job.plan);
+    else if (check->options->against == PRECISION_FLOAT)
         status = check_by_reference(check, scene, &job.plan);
     else
         status = check_by_exact_picture(check, scene, &job.plan);
@@ -122,7 +181,7 @@ enum status command_check(const struct options *options)
 {
     struct check check = {.options = options};
     enum status status = STATUS_DONE;
-    if (options->backend == BACKEND_VULKAN)
+    if (options->backend == BACKEND_VULKAN && !options->picture)
         status = vulkan_context_create(&options->vulkan, &check.context);
     if (status != STATUS_DONE)
         return status;

@@ -127,10 +127,15 @@ static enum status check_consistency(const struct options *options)
         {cpu && (options->vulkan.device || options->vulkan.validate),
          "--device and --validate do not go with --backend cpu"},
         {cpu && command == COMMAND_CHECK && !against, "check --backend cpu needs --against double or quad"},
-        {against && options->has_tolerance,
+        {against && options->has_tolerance && !options->picture,
          "--tolerance does not go with --against, which derives a bound for every pixel"},
         {against && options->job.has_max_error,
          "--max-error does not go with --against, which judges rounding alone"},
+        {options->picture && scenes > 1, "--picture takes one scene file"},
+        {options->picture &&
+             (cpu || options->vulkan.device || options->vulkan.validate || options->job.plan.fast ||
+              precision != PRECISION_FLOAT || options->job.has_max_error),
+         "--picture goes with no device, backend or precision: the exact picture is computed on the CPU"},
         {options->heatmap && scenes > 1, "--heatmap takes one scene file"},
         {options->heatmap && !(suffix && strcasecmp(suffix, ".png") == 0), "--heatmap writes a .png"},
     };
@@ -179,6 +184,8 @@ enum status command_line_read(int argc, char **argv, struct options *options)
     if (options->command == COMMAND_WATCH && options->output_count == 0)
         options->window = options->window || getenv("DISPLAY") || getenv("WAYLAND_DISPLAY");
     status = check_consistency(options);
+    if (options->picture && options->against == PRECISION_FLOAT)
+        options->against = PRECISION_DOUBLE;
     if (status == STATUS_DONE && options->command == COMMAND_PIXEL)
         status = read_place(options);
     return status == STATUS_DONE ? check_outputs(options) : status;

@@ -166,7 +166,7 @@ const struct option_entry option_table[] = {
      "cpu: the plain-C reference, no device (check: with --against)"},
 
     {"", "o", RENDER | WATCH, OTHER("FILE", read_output), "write the picture; may be given several times"},
-    {"transfer", "", RENDER | WATCH, CHOICE("srgb|linear", transfer, TRANSFER_SRGB),
+    {"transfer", "", RENDER | WATCH | CHECK, CHOICE("srgb|linear", transfer, TRANSFER_SRGB),
      "of 8-bit files (default srgb)"},
 
     {"stats", "", RENDER, TEXT("FILE", stats), "times, rays and device as JSON"},
@@ -182,6 +182,10 @@ const struct option_entry option_table[] = {
     {"against", "", CHECK | PIXEL, CHOICE("double|quad", against, PRECISION_DOUBLE),
      "judge the float picture by a more precise one: errors, their\n"
      "bounds, and what is beyond them without a close decision"},
+
+    {"picture", "", CHECK, TEXT("FILE", picture),
+     "judge this picture, by any program, instead of one's own:\n"
+     ".exr, .pfm or .png (default --against double)"},
 
     {"json", "", CHECK | PIXEL | BENCH, TEXT("FILE", json), "the result for machines"},
 
