@@ -28,7 +28,9 @@ add_unit_test(inputs)
 add_unit_test(compiler)
 target_compile_definitions(unit_compiler PRIVATE SHADER_DEBUG_INFO=$<BOOL:${VKWHITTED_SHADER_DEBUG_INFO}>
                                                   OPTIMIZED_SHADERS=$<BOOL:${VKWHITTED_OPTIMIZE_SHADERS}>)
+add_unit_test(read_image)
 add_unit_test(srgb)
+add_unit_test(verdict)
 add_unit_test(warnings)
 add_unit_test(text_file)
 

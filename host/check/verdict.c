@@ -81,6 +81,18 @@ enum status verdicts_find(const struct read_image *picture, const struct referen
 
 static const char *const channels[] = {"r", "g", "b"};
 
+static void print_largest(const struct verdicts *verdicts)
+{
+    printf("; largest error %.3g @ (%u, %u, %s): ", verdicts->error, verdicts->x, verdicts->y,
+           channels[verdicts->channel]);
+    if (verdicts->value.low < verdicts->value.high)
+        printf("%.6g to %.6g", (double)verdicts->value.low, (double)verdicts->value.high);
+    else
+        printf("%.9g", (double)verdicts->value.low);
+    printf(", exactly %.9g, bound %.2g, closest decision %.3g roundings away", verdicts->exact,
+           verdicts->bound, verdicts->margin);
+}
+
 void verdicts_print(const struct verdicts *verdicts, const char *scene, const char *picture,
                     const char *precision, size_t allowed)
 {
@@ -90,14 +102,9 @@ void verdicts_print(const struct verdicts *verdicts, const char *scene, const ch
     if (wrong > 0)
         printf(" (%zu by less than 1e-4 of their value, %zu within 1000 roundings of an edge, %zu others)",
                pixels[VERDICT_SLIGHTLY_OFF], pixels[VERDICT_EDGE], pixels[VERDICT_WRONG]);
-    printf("; largest error %.3g @ (%u, %u, %s): ", verdicts->error, verdicts->x, verdicts->y,
-           channels[verdicts->channel]);
-    if (verdicts->value.low < verdicts->value.high)
-        printf("%.6g to %.6g", (double)verdicts->value.low, (double)verdicts->value.high);
-    else
-        printf("%.9g", (double)verdicts->value.low);
-    printf(", exactly %.9g, bound %.2g, closest decision %.3g roundings away%s\n", verdicts->exact,
-           verdicts->bound, verdicts->margin, wrong <= allowed ? "" : "  WRONG");
+    if (verdicts->error > 0)
+        print_largest(verdicts);
+    puts(wrong <= allowed ? "" : "  WRONG");
 }
 
 json_t *verdicts_json(const struct verdicts *verdicts, const char *scene, const char *picture,

@@ -120,6 +120,11 @@ static enum status check_consistency(const struct options *options)
         {command == COMMAND_PIXEL && precision == PRECISION_QUAD,
          "pixel computes in float or double; see --against"},
         {command == COMMAND_PIXEL && scenes != 3, "pixel takes a scene file, a column and a row"},
+        {options->picture && scenes > 1, "--picture takes one scene file"},
+        {options->picture &&
+             (cpu || options->vulkan.device || options->vulkan.validate || options->job.plan.fast ||
+              precision != PRECISION_FLOAT || options->job.has_max_error),
+         "--picture goes with no device, backend or precision: the exact picture is computed on the CPU"},
         {precision == PRECISION_QUAD && !cpu, "--precision quad needs --backend cpu"},
         {precision != PRECISION_FLOAT && (options->job.plan.fast || against),
          "--fast and --against go with --precision float"},
@@ -131,11 +136,6 @@ static enum status check_consistency(const struct options *options)
          "--tolerance does not go with --against, which derives a bound for every pixel"},
         {against && options->job.has_max_error,
          "--max-error does not go with --against, which judges rounding alone"},
-        {options->picture && scenes > 1, "--picture takes one scene file"},
-        {options->picture &&
-             (cpu || options->vulkan.device || options->vulkan.validate || options->job.plan.fast ||
-              precision != PRECISION_FLOAT || options->job.has_max_error),
-         "--picture goes with no device, backend or precision: the exact picture is computed on the CPU"},
         {options->heatmap && scenes > 1, "--heatmap takes one scene file"},
         {options->heatmap && !(suffix && strcasecmp(suffix, ".png") == 0), "--heatmap writes a .png"},
     };
