@@ -120,6 +120,8 @@ static enum status check_consistency(const struct options *options)
         {command == COMMAND_PIXEL && precision == PRECISION_QUAD,
          "pixel computes in float or double; see --against"},
         {command == COMMAND_PIXEL && scenes != 3, "pixel takes a scene file, a column and a row"},
+        {command == COMMAND_CHECK && options->transfer != TRANSFER_SRGB && !options->picture,
+         "--transfer is for the .png of --picture"},
         {options->picture && scenes > 1, "--picture takes one scene file"},
         {options->picture &&
              (cpu || options->vulkan.device || options->vulkan.validate || options->job.plan.fast ||

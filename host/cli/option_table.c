@@ -178,14 +178,13 @@ const struct option_entry option_table[] = {
      "(default: where they are the same bits)"},
     {"allow", "", CHECK, NUMBER(allow, 0, UINT_MAX), "pixels that may differ or be unexplained"},
     {"heatmap", "", CHECK, TEXT("FILE.png", heatmap), "where they differ, as a picture"},
+    {"picture", "", CHECK, TEXT("FILE", picture),
+     "judge this picture (.exr, .pfm, .png) by any other program\n"
+     "instead of one's own (default --against double)"},
 
     {"against", "", CHECK | PIXEL, CHOICE("double|quad", against, PRECISION_DOUBLE),
      "judge the float picture by a more precise one: errors, their\n"
      "bounds, and what is beyond them without a close decision"},
-
-    {"picture", "", CHECK, TEXT("FILE", picture),
-     "judge this picture, by any program, instead of one's own:\n"
-     ".exr, .pfm or .png (default --against double)"},
 
     {"json", "", CHECK | PIXEL | BENCH, TEXT("FILE", json), "the result for machines"},
 
