@@ -19,9 +19,10 @@ struct pixel {
 
 struct tracked_path {
     struct ray ray;
-    struct ray_error error;
+    struct ray_errors error;
     double weight, e_weight;
-    bool followed; /* as long as float decides as here. Then the pixel's error has all the path may bring. */
+    bool followed; /* as long as float decides as here; then errors mean nothing, and the pixel's error has
+                    * all that the path may bring */
     int bounces;
     uint32_t branch; /* of the ray tree, as in tracer.c */
 };
@@ -85,7 +86,7 @@ static void gather(struct pixel *pixel, const struct tracked_path *path, struct 
     struct vec3 rounded = at_most(add(scale((real)path->weight, rounding_error), relative), most);
     struct vec3 shadow = at_most(scale((real)(path->weight + path->e_weight), shadow_error), most);
     RECORD_LEAF(radiance, scale((real)path->weight, radiance));
-    RECORD_BOUNDS(add(rounding_error, shadow_error), add(rounded, shadow), 0, INFINITY);
+    RECORD_BOUNDS(path->followed, add(rounding_error, shadow_error), add(rounded, shadow), 0, INFINITY);
     pixel->radiance = add(pixel->radiance, scale((real)path->weight, radiance));
     if (path->followed) {
         widen(pixel, rounded, CAUSE_ROUNDING);
@@ -99,16 +100,15 @@ static void gather_matte(struct pixel *pixel, const struct tracked_path *path, c
     const struct packed_scene *scene = pixel->scene;
     const uint32_t seed = hash32(pixel->seed + path->branch * (uint32_t)scene->quad_light_count);
     const struct vec3 none = {0, 0, 0}, albedo = vector_of(hit->material->parameters);
-    if (!path->followed && !RECORDS) {
+    if (!path->followed) {
         gather(pixel, path, reflect_lights(scene, &path->ray, hit, seed, pixel->sample, &pixel->tally), none,
                none);
         return;
     }
-    const struct point_error point = {hit_error, path->error.direction};
+    const struct point_errors point = {hit_error, path->error.direction};
     struct tracked_light light =
         track_lights(scene, &path->ray, hit, &point, seed, pixel->sample, &pixel->tally);
-    if (path->followed)
-        pixel->margin = smaller(pixel->margin, light.margin);
+    pixel->margin = smaller(pixel->margin, light.margin);
     gather(pixel, path, multiply(albedo, light.radiance), multiply(albedo, light.rounding),
            multiply(albedo, light.shadow));
 }
@@ -129,31 +129,32 @@ static void trace_dielectric(struct pixel *pixel, const struct tracked_path *pat
     real cos_in = at_least_zero(-dot(hit->normal, path->ray.direction));
     struct refraction refraction = refract(path->ray.direction, hit->normal, cos_in, eta, kappa);
     struct dielectric_error error =
-        track_refraction((double)cos_in, (double)eta, (double)kappa, path->error.direction, hit_error.normal);
+        track_refraction(path->ray.direction, path->error.direction, hit->normal, hit_error.normal,
+                         refraction.direction, (double)eta, (double)kappa);
+    double margin = path->followed ? margin_of(error.cos_out_squared, error.of_cos_out_squared) : INFINITY;
     note(&pixel->tally, refraction.total);
     RECORD_SPLIT(cos_in, refraction);
-    RECORD_BOUNDS(each(error.refracted_direction),
-                  ((struct vec3){(real)(path->error.direction + hit_error.normal + rounding(1)),
-                                 (real)error.reflectance, 0}),
-                  0, error.margin);
+    RECORD_BOUNDS(path->followed, errors_vector(error.refracted),
+                  ((struct vec3){(real)error.cos_in, (real)error.reflectance, 0}), 0, margin);
     double reflectance = refraction.total ? 1 : (double)refraction.reflectance;
     double e_split = path->weight * error.reflectance;
     struct tracked_path refracted = reflected;
     refracted.ray.direction = refraction.direction;
     refracted.ray.inward = !hit->from_inside;
-    refracted.error.direction = error.refracted_direction;
+    refracted.error.direction = error.refracted;
     refracted.branch = 2 * path->branch + 1;
     refracted.weight = path->weight * (1 - reflectance);
-    refracted.e_weight = branch_error(path, refracted.weight,
-                                      path->e_weight * (1 - reflectance) + e_split + rounding(path->weight));
+    refracted.e_weight =
+        branch_error(path, refracted.weight,
+                     path->e_weight * (1 - reflectance) + e_split + 2 * unit_roundoff * path->weight);
     if (!refraction.total)
         reflected.branch = 2 * path->branch + 2;
     reflected.weight = path->weight * reflectance;
-    reflected.e_weight = branch_error(path, reflected.weight,
-                                      path->e_weight * reflectance + e_split + rounding(reflected.weight));
-    decide(pixel, &refracted, error.margin, CAUSE_REFLECTION);
+    reflected.e_weight = branch_error(
+        path, reflected.weight, path->e_weight * reflectance + e_split + unit_roundoff * reflected.weight);
+    decide(pixel, &refracted, margin, CAUSE_REFLECTION);
     if (pixel->scene->quad_light_count > 0) /* the branch, by which light samples are drawn, is another */
-        decide(pixel, &reflected, error.margin, CAUSE_REFLECTION);
+        decide(pixel, &reflected, margin, CAUSE_REFLECTION);
     if (refraction.total) {
         trace_secondary(pixel, reflected);
         return;
@@ -186,8 +187,10 @@ static void scatter(struct pixel *pixel, const struct tracked_path *path, const 
         .surface = hit->surface,
         .inward = hit->from_inside,
     };
-    reflected.error =
-        (struct ray_error){hit_error.point, track_reflection(path->error.direction, hit_error.normal)};
+    if (path->followed)
+        reflected.error =
+            (struct ray_errors){hit_error.point, track_reflection(ray->direction, path->error.direction,
+                                                                  hit->normal, hit_error.normal)};
     ++reflected.bounces;
     if (hit->material->tags.SURFACE_KIND == KIND_MIRROR)
         trace_secondary(pixel, reflected);
@@ -195,34 +198,44 @@ static void scatter(struct pixel *pixel, const struct tracked_path *path, const 
         trace_dielectric(pixel, path, hit, hit_error, reflected);
 }
 
+/* Finds what the path's ray meets; float may not. */
+static bool meet(struct pixel *pixel, struct tracked_path *path, struct hit *hit)
+{
+    const struct packed_scene *scene = pixel->scene;
+    const struct ray_error error = {errors_length(path->error.origin), errors_length(path->error.direction)};
+    bool met = find_hit(scene, &path->ray, hit);
+    note(&pixel->tally, (uint32_t)(hit->surface + 1) * 2 + hit->from_inside);
+    if (error.direction > unknown_angle)
+        decide(pixel, path, 0, CAUSE_ROUNDING);
+    double margin = path->followed ? hit_margin(scene, &path->ray, error, hit) : INFINITY;
+    RECORD_HIT(hit);
+    RECORD_BOUNDS(path->followed && !met, all_channels(0), all_channels(0), 0, margin);
+    decide(pixel, path, margin, CAUSE_HIT);
+    return met;
+}
+
 /* Whatever is known of a path's errors, they come to no more than all it may bring. */
 static void trace(struct pixel *pixel, struct tracked_path path)
 {
-    const struct packed_scene *scene = pixel->scene;
-    const struct vec3 most = add(pixel->error, most_radiance(pixel, path.weight + path.e_weight)),
-                      none = {0, 0, 0};
+    const struct vec3 none = {0, 0, 0};
+    const struct vec3 most = add(pixel->error, most_radiance(pixel, path.weight + path.e_weight));
     const bool followed = path.followed;
     struct hit hit;
+    struct hit_error hit_error = {.distance = 0};
     RECORD_RAY(pixel->sample, &path);
-    RECORD_BOUNDS(each(path.error.origin), each(path.error.direction), path.e_weight, INFINITY);
-    bool met = find_hit(scene, &path.ray, &hit);
-    note(&pixel->tally, (uint32_t)(hit.surface + 1) * 2 + hit.from_inside);
-    if (path.error.direction > unknown_angle)
-        decide(pixel, &path, 0, CAUSE_ROUNDING);
-    double margin = path.followed || RECORDS ? hit_margin(scene, &path.ray, path.error, &hit) : INFINITY;
-    decide(pixel, &path, margin, CAUSE_HIT);
-    RECORD_HIT(&hit);
-    RECORD_BOUNDS(each(0), each(0), 0, margin);
-    if (met) {
-        struct hit_error hit_error = track_hit(scene, &path.ray, path.error, &hit);
-        RECORD_BOUNDS(each(hit_error.normal), each(hit_error.point),
-                      distance_error(scene, &path.ray, hit.surface, (double)hit.distance, path.error),
-                      margin);
-        if (hit_error.normal > unknown_angle)
-            decide(pixel, &path, 0, CAUSE_ROUNDING);
-        scatter(pixel, &path, &hit, hit_error);
+    RECORD_BOUNDS(followed, errors_vector(path.error.origin), errors_vector(path.error.direction),
+                  path.e_weight, INFINITY);
+    if (!meet(pixel, &path, &hit)) {
+        gather(pixel, &path, vector_of(pixel->scene->view.background), none, none);
     } else {
-        gather(pixel, &path, vector_of(scene->view.background), none, none);
+        if (path.followed) {
+            hit_error = track_hit(pixel->scene, &path.ray, &path.error, &hit);
+            RECORD_BOUNDS(true, errors_vector(hit_error.normal), errors_vector(hit_error.point),
+                          hit_error.distance, last_event->margin);
+            if (errors_length(hit_error.normal) > unknown_angle)
+                decide(pixel, &path, 0, CAUSE_ROUNDING);
+        }
+        scatter(pixel, &path, &hit, hit_error);
     }
     if (followed)
         pixel->error = at_most(pixel->error, most);
@@ -239,10 +252,10 @@ static struct pixel explain_pixel(const struct packed_scene *scene, int x, int y
         pixel.sample = k;
         struct tracked_path path = {
             .ray = camera_ray(scene, x, y, k),
-            .error = {.origin = 0, .direction = rounding(1)},
             .weight = 1,
             .followed = true,
         };
+        path.error = track_primary(scene, path.ray.direction);
         trace(&pixel, path);
     }
     real count = (real)scene->samples;
@@ -259,8 +272,8 @@ void REFERENCE_RECORD(const struct packed_scene *scene, int x, int y, struct ref
 {
     event_log = log;
     struct pixel pixel = explain_pixel(scene, x, y);
-    RECORD(EVENT_PIXEL, (layout_ivec4){0}, pixel.radiance, each(0), 0);
-    RECORD_BOUNDS(pixel.error, each(0), 0, pixel.margin);
+    RECORD(EVENT_PIXEL, (layout_ivec4){0}, pixel.radiance, all_channels(0), 0);
+    RECORD_BOUNDS(true, pixel.error, all_channels(0), 0, pixel.margin);
 }
 
 #else

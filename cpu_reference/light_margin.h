@@ -128,86 +128,92 @@ static inline double shadow_margin(const struct packed_scene *scene, const struc
 static const double nearest_light = 0x1p-30; /* the root of NEAREST_LIGHT_SQUARED */
 
 /* What float may be off by at the matte point. */
-struct point_error {
+struct point_errors {
     struct hit_error hit;
-    double ray_direction;
+    struct errors ray_direction;
 };
 
 /* A point of a light as the matte point sees it. */
 struct tracked_sample {
     struct vec3 direction; /* to it, 0 where float knows none */
-    double e_direction;
+    struct errors e_direction;
     double received, error; /* as of receive() */
     double margin;          /* of its being lit or not */
     bool may_hide;          /* in float, or is hidden and may be not: the error is all that it may bring */
 };
 
 /* Oren-Nayar's factor where the light is visible, with its error. */
-static inline double track_factor(const struct matte_point *matte, const struct point_error *point,
+static inline double track_factor(const struct matte_point *matte, const struct point_errors *point,
                                   const struct tracked_sample *sample, double cos_in, double e_cos_in,
                                   double *error)
 {
     const PackedSurface *material = matte->hit->material;
-    double a = (double)material->parameters.OREN_NAYAR_A, b = (double)material->more_parameters.OREN_NAYAR_B;
-    double cos_out = fabs((double)matte->cos_out), in = larger(cos_in, 0);
-    double e_cos_out = point->ray_direction + point->hit.normal + rounding(1);
+    const struct vec3 to_light = sample->direction, along = matte->ray->direction;
+    const double a = (double)material->parameters.OREN_NAYAR_A,
+                 b = (double)material->more_parameters.OREN_NAYAR_B;
+    const double cos_out = fabs((double)matte->cos_out), in = larger(cos_in, 0);
+    const double e_cos_out = dot_error(matte->hit->normal, point->hit.normal, along, point->ray_direction);
     /* The factor (a + b s / larger) cos_in is continuous, so neither s > 0 nor cos_in > 0 is a decision. */
-    double s = larger(-(double)dot(sample->direction, matte->ray->direction) - cos_in * cos_out, 0);
-    double larger_cos = larger(larger(cos_in, cos_out), e_cos_in);
-    double e_s =
-        sample->e_direction + point->ray_direction + cos_out * e_cos_in + cos_in * e_cos_out + rounding(1);
-    double ratio = s / larger_cos, factor = (a + b * ratio) * in;
+    const double s = larger(-(double)dot(to_light, along) - cos_in * cos_out, 0);
+    const double larger_cos = larger(larger(cos_in, cos_out), e_cos_in);
+    const double e_s = dot_error(to_light, sample->e_direction, along, point->ray_direction) +
+                       cos_out * e_cos_in + cos_in * e_cos_out + unit_roundoff * (s + 2 * in * cos_out);
+    const double ratio = s / larger_cos, factor = (a + b * ratio) * in;
     *error = (a + b * ratio) * e_cos_in +
              b * smaller(1, (in + e_cos_in) / larger_cos) * (e_s + ratio * (e_cos_in + e_cos_out)) +
-             rounding(2 * factor);
+             4 * unit_roundoff * factor;
     *error = smaller(*error, a + b); /* the factor is in [0, a + b] */
     return factor;
 }
 
 /* As receive(), with its error and the margin of its being lit, for a point light (quad NULL) or a point of a
  * quad. */
-static inline struct tracked_sample track_receive(const struct packed_scene *scene,
-                                                  const struct matte_point *matte,
-                                                  const struct point_error *point,
-                                                  const struct PackedQuadLight *quad, struct vec3 light,
-                                                  double e_light, struct vec3 *to_light, struct tally *tally)
+static inline struct tracked_sample
+track_receive(const struct packed_scene *scene, const struct matte_point *matte,
+              const struct point_errors *point, const struct PackedQuadLight *quad, struct vec3 light,
+              struct errors e_light, struct vec3 *to_light, struct tally *tally)
 {
+    const struct errors none = {0, 0, 0, 0};
     const struct hit *hit = matte->hit;
     struct tracked_sample sample = {.received = (double)receive(scene, matte, light, to_light, tally)};
-    struct vec3 way = subtract(light, hit->point);
-    double distance = length(way), e_distance = point->hit.point + e_light + rounding(distance);
-    double nearest = larger(distance - e_distance, nearest_light);
-    double falloff = 1 / (distance * distance), largest_falloff = 1 / (nearest * nearest);
-    sample.e_direction = smaller(relative_error(distance, e_distance) + rounding(1), 1);
-    if (nearest == nearest_light) { /* too near to shine in float, or perhaps not, and from wherever */
-        sample.error = 2 * largest_falloff;
+    const struct vec3 way = subtract(light, hit->point);
+    const struct errors e_way = errors_add(errors_add(point->hit.point, e_light), errors_of(1, way));
+    const double distance = length(way), off = errors_length(e_way);
+    if (distance - off <= nearest_light) { /* too near to shine, or perhaps not, and from wherever */
+        sample.error = 2 / NEAREST_LIGHT_SQUARED;
+        sample.e_direction = (struct errors){1, 1, 1, 1};
         sample.may_hide = true;
         return sample;
     }
     sample.direction = scale(1 / (real)distance, way);
-    double cos_in = (double)dot(hit->normal, sample.direction);
-    double e_cos_in = sample.e_direction + point->hit.normal + rounding(1);
+    sample.e_direction = unit_errors(sample.direction, errors_scale(1 / (distance - off), e_way));
+    const double cos_in = (double)dot(hit->normal, sample.direction);
+    const double e_cos_in = dot_error(hit->normal, point->hit.normal, sample.direction, sample.e_direction);
     sample.margin = INFINITY;
-    NOTE_LIGHT_BOUNDS(e_light, e_distance, e_cos_in, 0, INFINITY);
+    NOTE_LIGHT_BOUNDS(e_light, off, e_cos_in, 0, INFINITY);
     if (cos_in < -e_cos_in)
         return sample;
     double e_factor, factor = track_factor(matte, point, &sample, cos_in, e_cos_in, &e_factor);
-    struct segment segment = {hit->point,     light,        sample.direction,
-                              (real)distance, hit->surface, hit->from_inside};
+    const struct segment segment = {hit->point,     light,        sample.direction,
+                                    (real)distance, hit->surface, hit->from_inside};
+    const double nearest =
+        distance - smaller(errors_weigh(sample.direction, e_way) + off * off / (distance - off), off);
+    const double falloff = 1 / (distance * distance), largest_falloff = 1 / (nearest * nearest);
     struct conjunction lit = conjunction_begin();
     bool hides = false;
-    double shadow = shadow_margin(scene, &segment, point->hit.point, sample.e_direction, &hides);
+    const double shadow = shadow_margin(scene, &segment, errors_length(point->hit.point),
+                                        errors_length(sample.e_direction), &hides);
     sample.may_hide = shadow < 1;
     if (!hides || sample.may_hide)
         sample.error = (factor + e_factor) * largest_falloff - (sample.may_hide ? 0 : factor * falloff) +
-                       rounding(2 * factor * falloff);
+                       9 * unit_roundoff * factor * falloff;
     require_positive(&lit, cos_in, e_cos_in);
     require_positive(&lit, hides ? -shadow : shadow, 1);
     if (quad)
         require_positive(&lit, (double)dot(vector_of(quad->area_normal), sample.direction),
-                         length(vector_of(quad->area_normal)) * (sample.e_direction + rounding(1)));
+                         dot_error(vector_of(quad->area_normal), none, sample.direction, sample.e_direction));
     sample.margin = conjunction_margin(&lit);
-    NOTE_LIGHT_BOUNDS(e_light, e_distance, e_cos_in, sample.error, sample.margin);
+    NOTE_LIGHT_BOUNDS(e_light, off, e_cos_in, sample.error, sample.margin);
     return sample;
 }
 
@@ -230,25 +236,28 @@ static inline void add_light(struct tracked_light *light, layout_vec4 intensity,
 }
 
 static inline void track_quad(const struct packed_scene *scene, int number, const struct matte_point *matte,
-                              const struct point_error *point, uint32_t seed, uint32_t pixel_sample,
+                              const struct point_errors *point, uint32_t seed, uint32_t pixel_sample,
                               struct tally *tally, struct tracked_light *result)
 {
     const struct PackedQuadLight *quad = &scene->quad_lights[number];
     struct vec3 edge_u = vector_of(quad->edge_u), edge_v = vector_of(quad->edge_v), to_light = {0, 0, 0};
-    double area = length(vector_of(quad->area_normal));
+    const struct vec3 area = vector_of(quad->area_normal);
+    const struct errors none = {0, 0, 0, 0};
     double sum = 0, errors[] = {0, 0};
     for (int k = 0; k < scene->light_samples; ++k) {
         real u, v;
         sobol_point(seed, pixel_sample * (uint32_t)scene->light_samples + (uint32_t)k, &u, &v);
         struct vec3 light = add(add(vector_of(quad->corner), scale(u, edge_u)), scale(v, edge_v));
-        double e_light = rounding(length(light) + length(edge_u) + length(edge_v));
+        struct errors e_light = errors_add(errors_of(1, scale(u, edge_u)), errors_of(1, scale(v, edge_v)));
+        e_light = errors_add(
+            e_light, errors_add(errors_of(2, light), errors_of(1, subtract(light, scale(v, edge_v)))));
         struct tracked_sample sample =
             track_receive(scene, matte, point, quad, light, e_light, &to_light, tally);
-        real projected = dot(vector_of(quad->area_normal), to_light);
+        real projected = dot(area, to_light);
         bool lit = sample.received > 0 && projected > 0;
         note(tally, lit);
-        double e_projected = area * (sample.e_direction + rounding(1));
-        double largest = larger((double)dot(vector_of(quad->area_normal), sample.direction) + e_projected, 0);
+        double e_projected = dot_error(area, none, sample.direction, sample.e_direction);
+        double largest = larger((double)dot(area, sample.direction) + e_projected, 0);
         NOTE_AREA_BOUND(e_projected);
         RECORD_LIGHT(scene->point_light_count + number, k, light, projected);
         sum += lit ? sample.received * (double)projected : 0;
@@ -261,15 +270,15 @@ static inline void track_quad(const struct packed_scene *scene, int number, cons
 
 /* As reflect_lights(), through the same points in the same order. */
 static inline struct tracked_light track_lights(const struct packed_scene *scene, const struct ray *ray,
-                                                const struct hit *hit, const struct point_error *point,
+                                                const struct hit *hit, const struct point_errors *point,
                                                 uint32_t seed, uint32_t pixel_sample, struct tally *tally)
 {
     struct matte_point matte = {ray, hit, -dot(hit->normal, ray->direction)};
     struct tracked_light light = {.margin = INFINITY};
     for (int i = 0; i < scene->point_light_count; ++i) {
         struct vec3 position = vector_of(scene->point_lights[i].position), to_light;
-        struct tracked_sample sample =
-            track_receive(scene, &matte, point, NULL, position, 0, &to_light, tally);
+        struct tracked_sample sample = track_receive(scene, &matte, point, NULL, position,
+                                                     (struct errors){0, 0, 0, 0}, &to_light, tally);
         note(tally, sample.received > 0);
         RECORD_LIGHT(i, 0, position, 1);
         add_light(&light, scene->point_lights[i].intensity, sample.received,

@@ -1,61 +1,17 @@
-/* Running error analysis of the float tracer (Higham, "Accuracy and Stability of Numerical Algorithms",
- * section 3.3), carried along by the high-precision build: how far the float run may be from the exact one at
- * each quantity, to first order, and how far each decision is from going the other way. NUMERICS.md derives
- * the formulas. All errors are absolute and in scene units, radians or radiance. A margin is the distance to
- * the other outcome in units of the error: below 1, float may decide otherwise. It is never NaN. */
+/* How far each decision of the float tracer is from going the other way, as the high-precision build finds
+ * it; see error.h. A margin is the distance to the other outcome in units of the error: below 1, float may
+ * decide otherwise. It is never NaN. */
 #ifndef REFERENCE_MARGIN_H
 #define REFERENCE_MARGIN_H
 
-#include "dielectric.h"
-#include "geometry.h"
+#include "error.h"
 
-static const double unit_roundoff = 0x1p-24; /* float's */
-
-/* What a few operations on quantities of this size lose: the vector formulas here take 4 to 8 roundings of
- * half a unit each. */
-static inline double rounding(double magnitude)
-{
-    return 3 * unit_roundoff * magnitude;
-}
-
-static inline double length(struct vec3 v)
-{
-    return (double)square_root(dot(v, v));
-}
-
-static inline double smaller(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static inline double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
-/* Of value > 0, value being known up to error; 0 where the analysis knows neither. */
+/* Of value > 0 or not, value being known up to error; 0 where the analysis knows neither. */
 static inline double margin_of(double value, double error)
 {
     double margin = fabs(value) / error;
     return error == 0 ? INFINITY : margin >= 0 ? margin : 0;
 }
-
-/* How far the root of a square, 0 where that is negative, may be off, if the square may be by e_square. */
-static inline double root_error(double square, double e_square)
-{
-    return square > e_square ? e_square / (sqrt(square) + sqrt(square - e_square)) : sqrt(e_square);
-}
-
-/* Of 1 / value, value > 0 being known up to error; huge where that may be 0. */
-static inline double relative_error(double value, double error)
-{
-    return error < value ? error / (value - error) : 0x1p60;
-}
-
-struct ray_error {
-    double origin;    /* length */
-    double direction; /* radians */
-};
 
 /* A decision by several conditions that must all hold: if it holds, the weakest condition decides how safe it
  * is; if not, the strongest of those that fail. */
@@ -85,6 +41,12 @@ static inline double conjunction_margin(const struct conjunction *decision)
 {
     return decision->holds ? decision->weakest : decision->strongest_failure;
 }
+
+/* How far a ray may be off. */
+struct ray_error {
+    double origin;    /* length */
+    double direction; /* radians */
+};
 
 /* How a ray passes a sphere, with errors. */
 struct tracked_approach {
@@ -265,79 +227,6 @@ static inline double hit_margin(const struct packed_scene *scene, const struct r
                                               nearest ? 0 : e_distance));
     }
     return margin;
-}
-
-/* Errors of the hit's point and normal. */
-struct hit_error {
-    double point, normal;
-};
-
-static inline struct hit_error track_hit(const struct packed_scene *scene, const struct ray *ray,
-                                         struct ray_error error, const struct hit *hit)
-{
-    double size = length(hit->point);
-    if (hit->surface >= scene->sphere_count)
-        return (struct hit_error){
-            .point = distance_error(scene, ray, hit->surface, (double)hit->distance, error) + rounding(size),
-        };
-    layout_vec4 sphere = scene->spheres[hit->surface].center_radius;
-    struct tracked_approach approach = track_approach(sphere, ray->origin, ray->direction, error);
-    double radius = (double)sphere.w;
-    double normal =
-        approach.e_half_chord / radius + rounding(1); /* e_clearance / half_chord, or what it can be */
-    return (struct hit_error){
-        .normal = normal,
-        .point = radius * normal + rounding(size + radius),
-    };
-}
-
-/* What follows for reflection and refraction. */
-struct dielectric_error {
-    double refracted_direction, reflectance;
-    double margin; /* of total reflection or not */
-};
-
-static inline double track_reflection(double e_direction, double e_normal)
-{
-    return e_direction + 2 * e_normal + rounding(2);
-}
-
-/* The most that is transmitted, if cos_out is at most this, and cos_in at least that. */
-static inline double most_transmitted(double cos_in, double cos_out, double eta)
-{
-    return cos_in > 0 ? smaller(2 * (cos_out / cos_in) * (eta + 1 / eta), 1) : 1;
-}
-
-static inline struct dielectric_error track_refraction(double cos_in, double eta, double kappa,
-                                                       double e_direction, double e_normal)
-{
-    double e_cos_in = e_direction + e_normal + rounding(1);
-    double eta_cos = eta * cos_in;
-    double squared = kappa + eta_cos * eta_cos;
-    double e_squared = 2 * eta * eta_cos * e_cos_in + eta * eta * e_cos_in * e_cos_in +
-                       rounding(fabs(kappa) + eta_cos * eta_cos);
-    struct dielectric_error error = {.margin = margin_of(squared, e_squared)};
-    double cos_out = sqrt(larger(squared, 0)), e_cos_out = root_error(squared, e_squared);
-    if (error.margin < 1)
-        error.reflectance = most_transmitted(cos_in - e_cos_in, cos_out + e_cos_out, eta);
-    if (squared <= 0)
-        return error;
-    double sum = eta_cos + cos_out, e_sum = relative_error(sum, eta * e_cos_in + e_cos_out);
-    double bend = fabs(kappa) / sum;
-    double e_bend = bend * e_sum + rounding(bend);
-    error.refracted_direction = eta * e_direction + e_bend + bend * e_normal + rounding(eta + bend);
-    if (error.margin < 1)
-        return error;
-
-    double r_s = bend / sum, e_r_s = r_s * e_sum * (2 + e_sum) + rounding(r_s);
-    double cosines = cos_in * cos_out, sines = eta * (1 - cos_in * cos_in);
-    double e_cosines = cos_in * e_cos_out + cos_out * e_cos_in + rounding(cosines);
-    double e_sines = 2 * eta_cos * e_cos_in + rounding(eta);
-    double ratio = fabs(cosines - sines) / (cosines + sines);
-    double e_ratio = (e_cosines + e_sines) * (1 + ratio) / (cosines + sines) + rounding(ratio);
-    error.reflectance = r_s * e_r_s * (1 + ratio * ratio) +
-                        r_s * r_s * (ratio * e_ratio + e_ratio * e_ratio) + rounding(r_s * r_s);
-    return error;
 }
 
 #endif
