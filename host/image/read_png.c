@@ -33,6 +33,23 @@ static void on_warning(png_structp png, png_const_charp message)
     log_info("%s: PNG: %s", file->input->path, message);
 }
 
+/* libpng makes room for a chunk before it reads it: whether none says that it is longer than the file. */
+static bool chunks_fit(const struct read_input *input)
+{
+    enum { SIGNATURE = 8, AROUND_DATA = 12 }; /* bytes: length, type and check sum */
+    size_t left =
+        input->size > SIGNATURE && png_sig_cmp(input->bytes, 0, SIGNATURE) == 0 ? input->size - SIGNATURE : 0;
+    while (left >= AROUND_DATA) {
+        const uint8_t *at = input->bytes + input->size - left;
+        const size_t length = png_get_uint_32(at);
+        left -= AROUND_DATA;
+        if (length > left)
+            return false;
+        left = memcmp(at + 4, "IEND", 4) == 0 ? 0 : left - length;
+    }
+    return true;
+}
+
 static void read_bytes(png_structp png, png_bytep bytes, size_t size)
 {
     struct png_input *file = png_get_io_ptr(png);
@@ -101,6 +118,8 @@ static void decode(struct png_input *file, struct read_image *picture)
     png_set_user_limits(file->png, PNG_UINT_31_MAX,
                         PNG_UINT_31_MAX); /* read_image_create() knows what is wanted */
     png_set_chunk_malloc_max(file->png, LARGEST_CHUNK);
+    if (!chunks_fit(file->input))
+        png_error(file->png, "the file ends too early");
     png_read_info(file->png, file->info);
     file->status = read_image_create(file->input, png_get_image_width(file->png, file->info),
                                      png_get_image_height(file->png, file->info), picture);
