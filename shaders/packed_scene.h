@@ -17,7 +17,7 @@ struct packed_scene {
     struct PackedSphere *spheres;
     struct PackedSurface
         *surfaces; /* of spheres: one for each that is looped over, then those that others share */
-    struct hierarchy *hierarchy;    /* of the spheres that are not looped over; NULL: there are none */
+    struct hierarchy *hierarchy; /* of the spheres that are not looped over; NULL: there are none */
     struct PackedPlane *planes;
     struct PackedPointLight *point_lights;
     struct PackedQuadLight *quad_lights;

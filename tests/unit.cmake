@@ -10,6 +10,8 @@ endfunction()
 
 add_unit_test(bench)
 target_link_options(unit_bench PRIVATE -Wl,--wrap=calloc,--wrap=malloc) # to have them fail
+add_unit_test(building)
+target_link_options(unit_building PRIVATE -Wl,--wrap=clock_ms) # to have time fly
 add_unit_test(camera_motion)
 add_unit_test(compare)
 add_unit_test(fit)

@@ -11,6 +11,8 @@
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "base/interrupt.h"
 #include "npy_file.h"
@@ -247,7 +249,7 @@ static void tags_of_random_scenes(void **state)
             const bool holds =
                 body_distance(body_packed(&packed, i), dvec3_of_vec4(packed.view.position)) < 0 ||
                 (glass && reaches_in(&packed, i));
-            if (tags.HOLDS_RAYS != holds || tags.HOLDS_LIGHTS != has_light(&packed, i))
+            if ((tags.HOLDS_RAYS != 0) != holds || tags.HOLDS_LIGHTS != has_light(&packed, i))
                 fail_msg("seed %d, sphere %d: tags %d, %d", seed, i, tags.HOLDS_RAYS, tags.HOLDS_LIGHTS);
             holders += holds;
             empty += glass && !holds;
@@ -274,10 +276,48 @@ static void escapes(void **state)
     }
 }
 
-/* For good: the flag stays. So this is the last test. */
+/* What is packed beside another camera's scene is as packed anew, but shares its hierarchy. */
+static void moved_camera(void **state)
+{
+    (void)state;
+    const char *text =
+        HEAD "  - { name: Glass, type: spheres, file: glass.npy, material: Glass }\n"
+             "  - { name: Wall, type: plane, point: [0, 0, 8], normal: [0, 0, 1], material: Matte }\n"
+             "  - { name: Matte, type: spheres, file: matte.npy, material: Matte }\n";
+    int changed = 0;
+    for (int seed = 0; seed < 10; ++seed) {
+        struct scene scene;
+        struct packed_scene first, beside, anew;
+        srand48(seed);
+        for (size_t i = 0; i < 200; ++i)
+            scatter(rows[i], i);
+        npy_write("glass.npy", 150, rows);
+        npy_write("matte.npy", 50, rows + 150);
+        assert_int_equal(scene_read_text("a.yaml", text, strlen(text), &scene), STATUS_DONE);
+        const struct picture_settings settings = test_settings(&scene);
+        assert_int_equal(pack_scene(&scene, &settings, &first), STATUS_DONE);
+        for (int c = 0; c < 3; ++c) /* to within a sphere, in half of the cases behind the wall */
+            scene.camera.position[c] = (double)rows[seed][c] + (c == 2 && seed % 2 ? 30 : 0);
+        assert_int_equal(pack_scene_beside(&first, &scene, &settings, &beside), STATUS_DONE);
+        assert_int_equal(pack_scene(&scene, &settings, &anew), STATUS_DONE);
+        const bool same_scale = first.spheres[0].center_radius.w == anew.spheres[0].center_radius.w;
+        assert_true((beside.hierarchy == first.hierarchy) == same_scale);
+        const size_t size = (size_t)anew.sphere_count * sizeof *anew.spheres;
+        assert_memory_equal(beside.spheres, anew.spheres, size);
+        assert_memory_equal(beside.planes, anew.planes, sizeof *anew.planes);
+        changed += memcmp(beside.spheres, first.spheres, size) != 0;
+        pack_destroy(&first);
+        assert_true(beside.hierarchy->owners == 1 && beside.hierarchy->nodes[0].left > 0);
+        pack_destroy(&beside);
+        pack_destroy(&anew);
+        scene_destroy(&scene);
+    }
+    assert_true(changed > 2);
+}
+
+/* Ctrl-C ends reading and packing, and with them the process. */
 static void interrupted(void **state)
 {
-    struct packed_scene packed;
     struct scene scene;
     const char *text = HEAD CLOUD;
     (void)state;
@@ -285,21 +325,33 @@ static void interrupted(void **state)
     npy_write("rows.npy", 100, rows);
     assert_int_equal(scene_read_text("a.yaml", text, strlen(text), &scene), STATUS_DONE);
     struct picture_settings settings = test_settings(&scene);
-    interrupt_catch();
-    raise(SIGINT);
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_INTERRUPTED);
-    assert_true(!packed.spheres && !packed.hierarchy);
+    for (int packing = 0; packing < 2; ++packing) {
+        int how = 0;
+        const pid_t child = fork();
+        assert_true(child >= 0);
+        if (child == 0) {
+            struct packed_scene packed;
+            interrupt_catch();
+            raise(SIGINT);
+            if (packing)
+                pack_scene(&scene, &settings, &packed);
+            else
+                scene_read_text("a.yaml", text, strlen(text), &scene);
+            _exit(0);
+        }
+        assert_int_equal(waitpid(child, &how, 0), child);
+        assert_true(WIFSIGNALED(how) && WTERMSIG(how) == SIGINT);
+    }
     scene_destroy(&scene);
-    assert_int_equal(scene_read_text("a.yaml", text, strlen(text), &scene), STATUS_INTERRUPTED);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(few_and_many),          cmocka_unit_test(rows_as_objects),
-        cmocka_unit_test(order_and_surfaces),    cmocka_unit_test(giants),
-        cmocka_unit_test(tags_of_random_scenes), cmocka_unit_test(escapes),
-        cmocka_unit_test(interrupted),
+        cmocka_unit_test(few_and_many), cmocka_unit_test(rows_as_objects),
+        cmocka_unit_test(moved_camera), cmocka_unit_test(order_and_surfaces),
+        cmocka_unit_test(giants),       cmocka_unit_test(tags_of_random_scenes),
+        cmocka_unit_test(escapes),      cmocka_unit_test(interrupted),
     };
     return cmocka_run_group_tests(tests, test_folder_setup, test_folder_teardown);
 }

@@ -17,7 +17,7 @@
 #include "test_folder.h"
 
 enum { WIDTH = 37, HEIGHT = 21, VALUES = WIDTH * HEIGHT * 3 };
-static const struct image_wanted wanted = {0, 0, WIDTH, HEIGHT, TRANSFER_SRGB};
+static const struct image_wanted wanted = {{0, 0, WIDTH, HEIGHT}, TRANSFER_SRGB};
 
 /* Radiance from 2^-20 to 2^5, some values negative. */
 static void fill(float *rgb)
@@ -34,8 +34,8 @@ static struct read_image read_or_fail(const char *path, const struct image_wante
 {
     struct read_image image;
     assert_int_equal(image_read(path, as, &image), STATUS_DONE);
-    assert_int_equal(image.width, as->width);
-    assert_int_equal(image.height, as->height);
+    assert_int_equal(image.width, as->window.width);
+    assert_int_equal(image.height, as->window.height);
     return image;
 }
 
@@ -191,11 +191,11 @@ static void windows_of_exr(void **state)
     write_exr(&kind, rgb);
     struct image_wanted part = wanted;
     assert_refused("a.exr", &part, "data window");
-    part.x = 7;
+    part.window.x = 7;
     struct read_image read = read_or_fail("a.exr", &part);
     assert_true(read.rgb[VALUES - 1].low == rgb[VALUES - 1]);
     read_image_destroy(&read);
-    part.width -= 1;
+    part.window.width -= 1;
     assert_refused("a.exr", &part, "must have 36x21 pixels, has 37x21");
 }
 
@@ -244,7 +244,7 @@ static void kinds_of_png(void **state)
 {
     (void)state;
     static uint8_t rows[WIDTH * HEIGHT * 8];
-    const struct image_wanted linear = {0, 0, WIDTH, HEIGHT, TRANSFER_LINEAR};
+    const struct image_wanted linear = {{0, 0, WIDTH, HEIGHT}, TRANSFER_LINEAR};
     for (size_t i = 0; i < sizeof rows; ++i)
         rows[i] = (uint8_t)(i * 167 % 256);
     const struct {
@@ -281,7 +281,7 @@ static void kinds_of_pfm(void **state)
     (void)state;
     static const uint8_t little[] = "Pf\n1 2\n-1.0\n\0\0\x80\x3f\0\0\0\x40",
                          big[] = "Pf 1 2 2 \x3f\x80\0\0\x40\0\0\0";
-    const struct image_wanted two = {0, 0, 1, 2, TRANSFER_SRGB};
+    const struct image_wanted two = {{0, 0, 1, 2}, TRANSFER_SRGB};
     const struct {
         const uint8_t *bytes;
         size_t size;

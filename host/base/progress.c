@@ -9,6 +9,12 @@
 enum { BAR_WIDTH = 40 };
 
 static atomic_bool visible;
+static bool allowed = true;
+
+void progress_allow(bool any)
+{
+    allowed = any;
+}
 
 void progress_start(struct progress *progress, const char *label, uint64_t total, bool quiet)
 {
@@ -16,7 +22,7 @@ void progress_start(struct progress *progress, const char *label, uint64_t total
         .label = label,
         .total = total,
         .start_ms = clock_ms(),
-        .enabled = !quiet && isatty(STDERR_FILENO),
+        .enabled = !quiet && allowed && isatty(STDERR_FILENO),
     };
 }
 

@@ -12,7 +12,10 @@ struct progress {
     bool enabled;
 };
 
-/* label must outlive the progress. Quiet (-q) shows nothing. */
+/* Whether any bar is shown: not with -q. */
+void progress_allow(bool any);
+
+/* label must outlive the progress. Quiet, it shows nothing. */
 void progress_start(struct progress *progress, const char *label, uint64_t total, bool quiet);
 void progress_advance(struct progress *progress, uint64_t amount);
 

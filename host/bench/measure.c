@@ -49,7 +49,7 @@ static enum status start_point(struct bench *bench, struct bench_point *point)
         status = image_widen(&bench->image);
     double start = clock_ms();
     if (status == STATUS_DONE)
-        status = pack_scene(&bench->job.scene, picture, &point->packed);
+        status = pack_scene_beside(&bench->job.packed, &bench->job.scene, picture, &point->packed);
     if (status == STATUS_DONE && on_device)
         status =
             tracer_create(bench->options->context, &point->packed,

@@ -126,7 +126,7 @@ static void encode_relative(double relative, uint8_t *rgb)
     viridis(1 + log2(relative) / 24, rgb);
 }
 
-static void encode_row(const void *context, unsigned y, uint8_t *rgb)
+static enum status encode_row(const void *context, unsigned y, uint8_t *rgb)
 {
     const struct judged_picture *picture = context;
     size_t width = picture->image->width;
@@ -139,6 +139,7 @@ static void encode_row(const void *context, unsigned y, uint8_t *rgb)
         encode_relative(judge_pixel(picture->image->rgb + 3 * i, exact).relative, rgb + 3 * x);
         encode_relative(bound, rgb + 3 * (width + x));
     }
+    return STATUS_DONE;
 }
 
 enum status judgement_heatmap(const struct image *image, const struct reference_explanation *explanations,

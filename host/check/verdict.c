@@ -130,7 +130,7 @@ struct compared_picture {
     const struct tolerance *tolerance;
 };
 
-static void encode_row(const void *context, unsigned y, uint8_t *rgb)
+static enum status encode_row(const void *context, unsigned y, uint8_t *rgb)
 {
     static const uint8_t blue[3] = {40, 70, 255};
     const struct compared_picture *compared = context;
@@ -144,6 +144,7 @@ static void encode_row(const void *context, unsigned y, uint8_t *rgb)
         else if (pixel.verdict != VERDICT_RIGHT)
             viridis(1 + log2(pixel.relative) / 24, rgb + 3 * x);
     }
+    return STATUS_DONE;
 }
 
 enum status verdicts_heatmap(const struct read_image *picture,

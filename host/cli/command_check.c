@@ -139,13 +139,10 @@ static enum status report_picture(const struct check *check, const char *scene,
 static enum status check_file(const struct check *check, const char *scene, const struct render_plan *plan)
 {
     const struct options *options = check->options;
-    const struct window *window = &plan->window;
     struct read_image picture;
     struct reference_explanation *explanations = NULL;
-    enum status status = image_read(
-        options->picture,
-        &(struct image_wanted){window->x, window->y, window->width, window->height, options->transfer},
-        &picture);
+    enum status status =
+        image_read(options->picture, &(struct image_wanted){plan->window, options->transfer}, &picture);
     if (status != STATUS_DONE)
         return status;
     if (plan->scene->quad_light_count > 0 && !options->has_tolerance)

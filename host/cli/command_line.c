@@ -100,6 +100,14 @@ static enum status read_place(struct options *options)
     return STATUS_REFUSED;
 }
 
+static bool writes_only_exr(const struct options *options)
+{
+    for (size_t i = 0; i < options->output_count; ++i)
+        if (image_format_of(options->outputs[i]) != IMAGE_FORMAT_EXR)
+            return false;
+    return true;
+}
+
 static enum status check_consistency(const struct options *options)
 {
     enum command_id command = options->command;
@@ -112,6 +120,8 @@ static enum status check_consistency(const struct options *options)
         const char *problem;
     } rules[] = {
         {command == COMMAND_DEVICES && scenes > 0, "devices takes no scene"},
+        {command == COMMAND_JOIN && scenes == 0, "join takes the files of a picture's tiles"},
+        {command == COMMAND_JOIN && options->output_count == 0, "join needs -o FILE"},
         {command != COMMAND_DEVICES && scenes == 0, "expected a scene file"},
         {command == COMMAND_RENDER && scenes > 1, "render takes one scene file"},
         {command == COMMAND_WATCH && scenes > 1, "watch takes one scene file"},
@@ -138,6 +148,7 @@ static enum status check_consistency(const struct options *options)
          "--tolerance does not go with --against, which derives a bound for every pixel"},
         {against && options->job.has_max_error,
          "--max-error does not go with --against, which judges rounding alone"},
+        {options->job.tile.count > 0 && !writes_only_exr(options), "--tile writes .exr"},
         {options->heatmap && scenes > 1, "--heatmap takes one scene file"},
         {options->heatmap && !(suffix && strcasecmp(suffix, ".png") == 0), "--heatmap writes a .png"},
     };

@@ -102,6 +102,16 @@ static bool read_crop(const struct option_entry *option, const char *value, void
     return true;
 }
 
+static bool read_tile(const struct option_entry *option, const char *value, void *place)
+{
+    struct job_options *job = &((struct options *)place)->job;
+    unsigned tile[2];
+    if (!parse_list(value, '/', 2, TILE_MOST, tile) || tile[0] < 1 || tile[0] > tile[1])
+        return refuse(option, value, "I/N, the Ith of N tiles, I from 1 to N");
+    job->tile = (struct tile){.number = tile[0], .count = tile[1]};
+    return true;
+}
+
 static bool read_max_error(const struct option_entry *option, const char *value, void *place)
 {
     struct job_options *job = &((struct options *)place)->job;
@@ -124,6 +134,7 @@ static bool read_tolerance(const struct option_entry *option, const char *value,
 
 enum {
     RENDER = 1 << COMMAND_RENDER,
+    JOIN = 1 << COMMAND_JOIN,
     CHECK = 1 << COMMAND_CHECK,
     WATCH = 1 << COMMAND_WATCH,
     BENCH = 1 << COMMAND_BENCH,
@@ -165,10 +176,14 @@ const struct option_entry option_table[] = {
     {"backend", "", RENDER | CHECK | BENCH, CHOICE("vulkan|cpu", backend, BACKEND_VULKAN),
      "cpu: the plain-C reference, no device (check: with --against)"},
 
-    {"", "o", RENDER | WATCH, OTHER("FILE", read_output), "write the picture; may be given several times"},
-    {"transfer", "", RENDER | WATCH | CHECK, CHOICE("srgb|linear", transfer, TRANSFER_SRGB),
+    {"", "o", RENDER | JOIN | WATCH, OTHER("FILE", read_output),
+     "write the picture; may be given several times"},
+    {"transfer", "", RENDER | JOIN | WATCH | CHECK, CHOICE("srgb|linear", transfer, TRANSFER_SRGB),
      "of 8-bit files (default srgb)"},
 
+    {"tile", "", RENDER, OTHER("I/N", read_tile),
+     "only the Ith of N parts of the picture, from 1, as .exr; all\n"
+     "of them make one picture with 'vkwhitted join'"},
     {"stats", "", RENDER, TEXT("FILE", stats), "times, rays and device as JSON"},
     {"repeat", "", RENDER, NUMBER(job.plan.repeat, 1, 100000),
      "render again as often; the time is the median of these"},
@@ -202,9 +217,9 @@ const struct option_entry option_table[] = {
      "what became faster, slower or less accurate beyond noise since\n"
      "the bench that wrote this with --json"},
 
-    {"device", "", ALL, TEXT("N|NAME", vulkan.device),
+    {"device", "", ALL & ~JOIN, TEXT("N|NAME", vulkan.device),
      "the device with this number, or with this in its name"},
-    {"validate", "", ALL, FLAG(vulkan.validate),
+    {"validate", "", ALL & ~JOIN, FLAG(vulkan.validate),
      "with the Khronos validation layer; any message is an error"},
     {"", "q", ALL, FLAG(job.plan.quiet), "quiet: errors only"},
     {"", "v", ALL, FLAG(verbose), "verbose: also the device; all light samples of a pixel"},

@@ -9,6 +9,7 @@
 
 enum command_id {
     COMMAND_RENDER,
+    COMMAND_JOIN,
     COMMAND_CHECK,
     COMMAND_WATCH,
     COMMAND_BENCH,
@@ -22,7 +23,7 @@ struct options {
     enum command_id command;
     int argc;
     char **argv;
-    char **scenes; /* paths */
+    char **scenes; /* paths; of tiles for join */
     size_t scene_count;
     const char **outputs; /* -o */
     size_t output_count;
@@ -58,6 +59,7 @@ void help_print_version(void);
 /* What is reported on standard output and error, and what the exit status means, stands in the manual page.
  */
 enum status command_render(const struct options *options);
+enum status command_join(const struct options *options);
 enum status command_check(const struct options *options);
 enum status command_watch(const struct options *options);
 enum status command_bench(const struct options *options);

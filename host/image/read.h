@@ -16,8 +16,8 @@ struct read_image {
 
 /* The picture that a file is expected to hold. */
 struct image_wanted {
-    unsigned x, y, width, height; /* in pixels of the whole picture, from the top left */
-    enum transfer transfer;       /* of PNG's code values */
+    struct window window;   /* of the whole picture */
+    enum transfer transfer; /* of PNG's code values */
 };
 
 /* Reads a picture file of the wanted size; its suffix says the format:

@@ -1,10 +1,10 @@
 #include <math.h>
-#include <openexr.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/exr_error.h"
 #include "image/read_formats.h"
 
 enum { LARGEST_TILE = 4096 }; /* pixels a side */
@@ -17,19 +17,8 @@ struct exr_input {
     exr_attr_box2i_t window; /* the data's */
     const char *channels[3]; /* the names of those that make the picture's; three times the same for grey */
     bool is_half[3];
-    char problem[256]; /* the first thing that the library complained of */
+    bool reported; /* why the file is refused */
 };
-
-static void on_error(exr_const_context_t context, exr_result_t result, const char *message)
-{
-    void *user_data = NULL;
-    if (!context || exr_get_user_data(context, &user_data) != EXR_ERR_SUCCESS || !user_data)
-        return;
-    struct exr_input *file = user_data;
-    if (file->problem[0] == '\0')
-        snprintf(file->problem, sizeof file->problem, "%s",
-                 message ? message : exr_get_default_error_message(result));
-}
 
 static int64_t on_read(exr_const_context_t context, void *user_data, void *bytes, uint64_t size,
                        uint64_t offset, exr_stream_error_func_ptr_t report_error)
@@ -50,20 +39,15 @@ static int64_t on_size(exr_const_context_t context, void *user_data)
     return (int64_t)((struct exr_input *)user_data)->input->size;
 }
 
-static bool succeeded(struct exr_input *file, exr_result_t result)
+/* Keeps why the file is refused; false. */
+__attribute__((format(printf, 1, 2))) static bool refuse(const char *format, ...)
 {
-    if (result != EXR_ERR_SUCCESS && file->problem[0] == '\0')
-        snprintf(file->problem, sizeof file->problem, "%s", exr_get_default_error_message(result));
-    return result == EXR_ERR_SUCCESS;
-}
-
-/* Notes why the file is refused; false. */
-__attribute__((format(printf, 2, 3))) static bool refuse(struct exr_input *file, const char *format, ...)
-{
+    char message[256];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(file->problem, sizeof file->problem, format, arguments);
+    vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
+    exr_error_keep(NULL, EXR_ERR_SUCCESS, message);
     return false;
 }
 
@@ -78,16 +62,16 @@ static const exr_attr_chlist_entry_t *find_channel(const exr_attr_chlist_t *list
 static bool choose_channels(struct exr_input *file)
 {
     const exr_attr_chlist_t *list;
-    if (!succeeded(file, exr_get_channels(file->context, 0, &list)))
+    if (!exr_succeeded(exr_get_channels(file->context, 0, &list)))
         return false;
     const bool grey = !find_channel(list, "R") && !find_channel(list, "BY");
     static const char *const colors[] = {"R", "G", "B"};
     for (int c = 0; c < 3; ++c) {
         const exr_attr_chlist_entry_t *channel = find_channel(list, grey ? "Y" : colors[c]);
         if (!channel)
-            return refuse(file, "expected the channels R, G and B or Y, has no %s", grey ? "Y" : colors[c]);
+            return refuse("expected the channels R, G and B or Y, has no %s", grey ? "Y" : colors[c]);
         if (channel->pixel_type == EXR_PIXEL_UINT || channel->x_sampling != 1 || channel->y_sampling != 1)
-            return refuse(file, "channel %s: expected half or float for each pixel", channel->name.str);
+            return refuse("channel %s: expected half or float for each pixel", channel->name.str);
         file->channels[c] = channel->name.str;
         file->is_half[c] = channel->pixel_type == EXR_PIXEL_HALF;
     }
@@ -98,15 +82,15 @@ static bool check_windows(struct exr_input *file)
 {
     const struct image_wanted *wanted = file->input->wanted;
     exr_attr_box2i_t display;
-    if (!succeeded(file, exr_get_data_window(file->context, 0, &file->window)) ||
-        !succeeded(file, exr_get_display_window(file->context, 0, &display)))
+    if (!exr_succeeded(exr_get_data_window(file->context, 0, &file->window)) ||
+        !exr_succeeded(exr_get_display_window(file->context, 0, &display)))
         return false;
     const exr_attr_v2i_t first = file->window.min, last = file->window.max;
     if (memcmp(&file->window, &display, sizeof display) == 0 ||
-        ((int64_t)first.x - display.min.x == wanted->x && (int64_t)first.y - display.min.y == wanted->y))
+        ((int64_t)first.x - display.min.x == wanted->window.x &&
+         (int64_t)first.y - display.min.y == wanted->window.y))
         return true;
     return refuse(
-        file,
         "its data window (%d, %d)..(%d, %d) is not its display window (%d, %d)..(%d, %d), and not the part "
         "that is judged",
         first.x, first.y, last.x, last.y, display.min.x, display.min.y, display.max.x, display.max.y);
@@ -116,14 +100,14 @@ static bool check_storage(struct exr_input *file, bool *tiled)
 {
     exr_storage_t storage;
     exr_compression_t compression;
-    if (!succeeded(file, exr_get_storage(file->context, 0, &storage)) ||
-        !succeeded(file, exr_get_compression(file->context, 0, &compression)))
+    if (!exr_succeeded(exr_get_storage(file->context, 0, &storage)) ||
+        !exr_succeeded(exr_get_compression(file->context, 0, &compression)))
         return false;
     *tiled = storage == EXR_STORAGE_TILED;
     if (!*tiled && storage != EXR_STORAGE_SCANLINE)
-        return refuse(file, "expected a flat picture, is a deep one");
+        return refuse("expected a flat picture, is a deep one");
     if (compression > EXR_COMPRESSION_PIZ)
-        return refuse(file, "compressed with loss: by how much its values are off is not known");
+        return refuse("compressed with loss: by how much its values are off is not known");
     return true;
 }
 
@@ -134,9 +118,9 @@ static bool read_chunk(struct exr_input *file, const exr_chunk_info_t *chunk, in
     const struct read_image *picture = file->picture;
     const bool first = !pipeline->channels;
     if (x < 0 || y < 0 || x + chunk->width > picture->width || y + chunk->height > picture->height)
-        return refuse(file, "a chunk reaches out of the picture");
-    if (!succeeded(file, first ? exr_decoding_initialize(file->context, 0, chunk, pipeline)
-                               : exr_decoding_update(file->context, 0, chunk, pipeline)))
+        return refuse("a chunk reaches out of the picture");
+    if (!exr_succeeded(first ? exr_decoding_initialize(file->context, 0, chunk, pipeline)
+                             : exr_decoding_update(file->context, 0, chunk, pipeline)))
         return false;
     const size_t row = 3 * (size_t)picture->width;
     for (int i = 0; i < pipeline->channel_count; ++i) {
@@ -150,18 +134,18 @@ static bool read_chunk(struct exr_input *file, const exr_chunk_info_t *chunk, in
         channel->user_pixel_stride = 3 * sizeof *picture->rgb;
         channel->user_line_stride = (int32_t)(row * sizeof *picture->rgb);
     }
-    return (!first || succeeded(file, exr_decoding_choose_default_routines(file->context, 0, pipeline))) &&
-           succeeded(file, exr_decoding_run(file->context, 0, pipeline));
+    return (!first || exr_succeeded(exr_decoding_choose_default_routines(file->context, 0, pipeline))) &&
+           exr_succeeded(exr_decoding_run(file->context, 0, pipeline));
 }
 
 static bool read_scanlines(struct exr_input *file)
 {
     int32_t rows_per_chunk;
     exr_chunk_info_t chunk;
-    bool read = succeeded(file, exr_get_scanlines_per_chunk(file->context, 0, &rows_per_chunk));
+    bool read = exr_succeeded(exr_get_scanlines_per_chunk(file->context, 0, &rows_per_chunk));
     for (int64_t y = 0; read && y < file->picture->height; y += rows_per_chunk)
-        read = succeeded(file, exr_read_scanline_chunk_info(file->context, 0, (int)(file->window.min.y + y),
-                                                            &chunk)) &&
+        read = exr_succeeded(
+                   exr_read_scanline_chunk_info(file->context, 0, (int)(file->window.min.y + y), &chunk)) &&
                read_chunk(file, &chunk, 0, (int64_t)chunk.start_y - file->window.min.y);
     return read;
 }
@@ -172,13 +156,11 @@ static bool read_tiles(struct exr_input *file)
     exr_tile_level_mode_t levels;
     exr_tile_round_mode_t rounding;
     exr_chunk_info_t chunk;
-    bool read =
-        succeeded(file, exr_get_tile_descriptor(file->context, 0, &width, &height, &levels, &rounding));
+    bool read = exr_succeeded(exr_get_tile_descriptor(file->context, 0, &width, &height, &levels, &rounding));
     for (int64_t y = 0; read && y * height < file->picture->height; ++y)
         for (int64_t x = 0; read && x * width < file->picture->width; ++x)
-            read =
-                succeeded(file, exr_read_tile_chunk_info(file->context, 0, (int)x, (int)y, 0, 0, &chunk)) &&
-                read_chunk(file, &chunk, x * width, y * height);
+            read = exr_succeeded(exr_read_tile_chunk_info(file->context, 0, (int)x, (int)y, 0, 0, &chunk)) &&
+                   read_chunk(file, &chunk, x * width, y * height);
     return read;
 }
 
@@ -207,21 +189,22 @@ static void find_ranges(const struct exr_input *file)
 static enum status decode(struct exr_input *file)
 {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    initializer.error_handler_fn = on_error;
+    initializer.error_handler_fn = exr_error_keep;
     initializer.user_data = file;
     initializer.read_fn = on_read;
     initializer.size_fn = on_size;
     initializer.max_tile_width = initializer.max_tile_height = LARGEST_TILE;
     bool tiled;
-    if (!succeeded(file, exr_start_read(&file->context, file->input->path, &initializer)) ||
+    exr_error_clear();
+    if (!exr_succeeded(exr_start_read(&file->context, file->input->path, &initializer)) ||
         !check_windows(file))
         return STATUS_REFUSED;
     const exr_attr_box2i_t window = file->window;
     const enum status status =
         read_image_create(file->input, (unsigned long)((int64_t)window.max.x - window.min.x + 1),
                           (unsigned long)((int64_t)window.max.y - window.min.y + 1), file->picture);
-    file->problem[0] = '\0';
-    if (status != STATUS_DONE)
+    file->reported = status != STATUS_DONE;
+    if (file->reported)
         return status;
     if (!check_storage(file, &tiled) || !choose_channels(file) ||
         !(tiled ? read_tiles : read_scanlines)(file))
@@ -238,7 +221,7 @@ enum status image_read_exr(const struct read_input *input, struct read_image *pi
         exr_decoding_destroy(file.context, &file.pipeline);
     if (file.context)
         exr_finish(&file.context);
-    if (status == STATUS_REFUSED && file.problem[0])
-        log_error("%s: cannot read EXR: %s", input->path, file.problem);
+    if (status == STATUS_REFUSED && !file.reported)
+        log_error("%s: cannot read EXR: %s", input->path, exr_error());
     return status;
 }

@@ -16,9 +16,9 @@ enum status read_image_create(const struct read_input *input, unsigned long widt
                               struct read_image *picture)
 {
     const struct image_wanted *wanted = input->wanted;
-    if (width != wanted->width || height != wanted->height) {
-        log_error("%s: the picture must have %ux%u pixels, has %lux%lu", input->path, wanted->width,
-                  wanted->height, width, height);
+    if (width != wanted->window.width || height != wanted->window.height) {
+        log_error("%s: the picture must have %ux%u pixels, has %lux%lu", input->path, wanted->window.width,
+                  wanted->window.height, width, height);
         return STATUS_REFUSED;
     }
     picture->rgb = calloc((size_t)width * height * 3, sizeof *picture->rgb);
@@ -26,8 +26,8 @@ enum status read_image_create(const struct read_input *input, unsigned long widt
         log_error("%s: no memory for %lux%lu pixels", input->path, width, height);
         return STATUS_UNABLE;
     }
-    picture->width = wanted->width;
-    picture->height = wanted->height;
+    picture->width = wanted->window.width;
+    picture->height = wanted->window.height;
     return STATUS_DONE;
 }
 

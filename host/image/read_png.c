@@ -105,7 +105,7 @@ static void read_codes(struct png_input *file, size_t row_bytes)
 {
     const int passes = png_set_interlace_handling(file->png);
     for (int pass = 0; pass < passes; ++pass)
-        for (unsigned y = 0; y < file->input->wanted->height; ++y)
+        for (unsigned y = 0; y < file->input->wanted->window.height; ++y)
             png_read_row(file->png, file->codes + y * row_bytes, NULL);
     png_read_end(file->png, NULL);
 }

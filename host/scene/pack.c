@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/interrupt.h"
 #include "scene/body.h"
@@ -20,6 +21,7 @@ struct packing {
     const struct scene *scene;
     double scale; /* from metres to scene units, a power of two */
     struct looped looped;
+    const struct packed_scene *other; /* whose hierarchy may be shared; may be NULL */
     struct packed_scene *packed;
 };
 
@@ -145,28 +147,48 @@ static void pack_rows(struct packing *packing, const struct scene_object *object
         packed->surfaces[packed->surface_count++] = pack_surface(packing->scene, object, order);
 }
 
+/* Whether the spheres that are not looped over are the same. */
+static bool same_others(const struct packed_scene *a, const struct packed_scene *b)
+{
+    bool same = a->sphere_count == b->sphere_count && a->looped_spheres == b->looped_spheres;
+    for (int i = a->looped_spheres; i < a->sphere_count && same; ++i)
+        same = memcmp(&a->spheres[i].center_radius, &b->spheres[i].center_radius, sizeof(layout_vec4)) == 0;
+    return same;
+}
+
+static enum status find_hierarchy(struct packing *packing)
+{
+    struct packed_scene *packed = packing->packed;
+    if (packing->other && packing->other->hierarchy && same_others(packing->other, packed)) {
+        packed->hierarchy = packing->other->hierarchy;
+        ++packed->hierarchy->owners;
+        return STATUS_DONE;
+    }
+    struct hierarchy *hierarchy = calloc(1, sizeof *hierarchy);
+    if (!hierarchy) {
+        log_error("%s: no memory for a hierarchy", packing->scene->path);
+        return STATUS_UNABLE;
+    }
+    enum status status =
+        hierarchy_build(packed->spheres, (uint32_t)packed->looped_spheres,
+                        (uint32_t)(packed->sphere_count - packed->looped_spheres), hierarchy);
+    hierarchy->owners = 1;
+    packed->hierarchy = hierarchy;
+    return status;
+}
+
 static enum status pack_others(struct packing *packing)
 {
     const struct scene *scene = packing->scene;
     struct packed_scene *packed = packing->packed;
     size_t sphere = 0;
     int order = 0;
-    for (size_t i = 0; i < scene->object_count && !interrupt_requested(); ++i) {
+    for (size_t i = 0; i < scene->object_count; ++i) {
         if (scene->objects[i].type != OBJECT_PLANE)
             pack_rows(packing, &scene->objects[i], order, &sphere);
         order += (int)object_body_count(&scene->objects[i]);
     }
-    if (interrupt_requested())
-        return STATUS_INTERRUPTED;
-    if (packed->sphere_count == packed->looped_spheres)
-        return STATUS_DONE;
-    packed->hierarchy = calloc(1, sizeof *packed->hierarchy);
-    if (!packed->hierarchy) {
-        log_error("%s: no memory for a hierarchy", scene->path);
-        return STATUS_UNABLE;
-    }
-    return hierarchy_build(packed->spheres, (uint32_t)packed->looped_spheres,
-                           (uint32_t)(packed->sphere_count - packed->looped_spheres), packed->hierarchy);
+    return packed->sphere_count == packed->looped_spheres ? STATUS_DONE : find_hierarchy(packing);
 }
 
 static bool lies_behind(const struct packed_scene *packed, int plane, struct dvec3 point)
@@ -243,11 +265,11 @@ static enum status pack_contents(struct packing *packing)
     enum status status = pack_others(packing);
     for (size_t i = 0; i < scene->light_count && status == STATUS_DONE; ++i)
         status = pack_light(packing, &scene->lights[i]);
-    if (status == STATUS_DONE)
-        status = hollow_pack(packing->packed);
-    if (status == STATUS_DONE)
-        share_roughness(packing->packed);
-    return status;
+    if (status != STATUS_DONE)
+        return status;
+    hollow_pack(packing->other, packing->packed);
+    share_roughness(packing->packed);
+    return STATUS_DONE;
 }
 
 double pack_scale(const struct scene *scene)
@@ -276,6 +298,13 @@ double pack_scale(const struct scene *scene)
 enum status pack_scene(const struct scene *scene, const struct picture_settings *settings,
                        struct packed_scene *packed)
 {
+    return pack_scene_beside(NULL, scene, settings, packed);
+}
+
+enum status pack_scene_beside(const struct packed_scene *other, const struct scene *scene,
+                              const struct picture_settings *settings, struct packed_scene *packed)
+{
+    interrupt_ends_process(true);
     const struct looped looped = looped_choose(scene);
     *packed = (struct packed_scene){
         .width = (int)settings->width,
@@ -289,7 +318,8 @@ enum status pack_scene(const struct scene *scene, const struct picture_settings 
         .point_lights = calloc(scene->light_count + 1, sizeof *packed->point_lights),
         .quad_lights = calloc(scene->light_count + 1, sizeof *packed->quad_lights),
     };
-    struct packing packing = {.scene = scene, .scale = pack_scale(scene), .looped = looped, .packed = packed};
+    struct packing packing = {
+        .scene = scene, .scale = pack_scale(scene), .looped = looped, .other = other, .packed = packed};
     enum status status = STATUS_UNABLE;
     if (packed->spheres && packed->surfaces && packed->planes && packed->point_lights && packed->quad_lights)
         status = pack_contents(&packing);
@@ -300,6 +330,7 @@ enum status pack_scene(const struct scene *scene, const struct picture_settings 
         truncation_pack(packed, settings->has_max_error ? settings->max_error : -1);
     else
         pack_destroy(packed);
+    interrupt_ends_process(false);
     return status;
 }
 
@@ -307,9 +338,10 @@ void pack_destroy(struct packed_scene *packed)
 {
     free(packed->spheres);
     free(packed->surfaces);
-    if (packed->hierarchy)
+    if (packed->hierarchy && --packed->hierarchy->owners == 0) {
         hierarchy_destroy(packed->hierarchy);
-    free(packed->hierarchy);
+        free(packed->hierarchy);
+    }
     free(packed->planes);
     free(packed->point_lights);
     free(packed->quad_lights);

@@ -33,10 +33,21 @@ static enum status render_output(struct vulkan_context *context, const struct re
     struct tracer *tracer;
     struct progress progress;
     struct tracer_times unused;
+    struct reference_rays sum = {0};
     progress_start(&progress, tasks[output], (uint64_t)plan->window.width * plan->window.height, plan->quiet);
     enum status status = create_tracer(context, plan, output, &tracer);
-    if (status == STATUS_DONE)
-        status = tracer_render_values(tracer, plan->window, values, &progress, &unused);
+    for (unsigned y = 0; y < plan->window.height && status == STATUS_DONE;) {
+        const struct window strip = window_strip(plan->window, plan->strips, y);
+        status = tracer_render_values(tracer, strip, values, &progress, &unused);
+        y += strip.height;
+        if (values->rays) {
+            sum.primary += values->rays->primary;
+            sum.secondary += values->rays->secondary;
+            sum.shadow += values->rays->shadow;
+        }
+    }
+    if (values->rays)
+        *values->rays = sum;
     progress_end(&progress);
     tracer_destroy(&tracer);
     return status;

@@ -21,8 +21,10 @@ enum status scene_buffer_create(struct vulkan_context *context, const struct pac
                                 bool storage, struct scene_buffer *scene_buffer);
 void scene_buffer_destroy(struct vulkan_context *context, struct scene_buffer *scene_buffer);
 
-/* Copies a scene without a hierarchy and with as many objects and lights over the one in the buffer. */
-void scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_scene *scene);
+/* Copies a scene with as many objects and lights over the one in the buffer. Where they have no hierarchy in
+ * common it returns false and changes nothing. */
+bool scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_scene *old,
+                         const struct packed_scene *scene);
 
 enum { CHANNELS = 4 };
 

@@ -65,25 +65,25 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
         copy_band(plan, band, &picture, image);
         progress_advance(progress, (uint64_t)band.width * (uint64_t)band.height);
     }
-    *rays = picture.rays;
+    rays->primary += picture.rays.primary;
+    rays->secondary += picture.rays.secondary;
+    rays->shadow += picture.rays.shadow;
     free(values);
     return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_DONE;
 }
 
 enum status render_on_cpu(const struct render_plan *plan, struct rendering *rendering)
 {
-    struct reference_scene scene;
+    struct packed_scene scene;
     struct render_plan with_tree = *plan;
     double start = clock_ms();
     *rendering = (struct rendering){0};
-    enum status status = reference_scene_create(plan->scene, plan->threads, &scene);
+    enum status status = reference_scene(plan->scene, plan->threads, &scene);
     if (status != STATUS_DONE)
         return status;
-    rendering->setup_ms = scene.built ? clock_ms() - start : 0;
-    with_tree.scene = &scene.packed;
-    status = render_repeatedly(render_once_on_cpu, &rendering->rays, &with_tree, rendering);
-    reference_scene_destroy(&scene);
-    return status;
+    rendering->setup_ms = scene.tree ? clock_ms() - start : 0;
+    with_tree.scene = &scene;
+    return render_repeatedly(render_once_on_cpu, &rendering->rays, &with_tree, rendering);
 }
 
 /* Explains the plan's window in bands, so that Ctrl-C is heard. */
@@ -111,14 +111,13 @@ static enum status explain(const struct render_plan *plan, const struct packed_s
 enum status explain_on_cpu(const struct render_plan *plan, enum precision precision,
                            struct reference_explanation **explanations)
 {
-    struct reference_scene scene;
-    enum status status = reference_scene_create(plan->scene, plan->threads, &scene);
+    struct packed_scene scene;
+    enum status status = reference_scene(plan->scene, plan->threads, &scene);
     *explanations = NULL;
     if (status != STATUS_DONE)
         return status;
     *explanations = allocate_pixels(&plan->window, sizeof **explanations);
-    status = *explanations ? explain(plan, &scene.packed, precision, *explanations) : STATUS_UNABLE;
-    reference_scene_destroy(&scene);
+    status = *explanations ? explain(plan, &scene, precision, *explanations) : STATUS_UNABLE;
     if (status == STATUS_DONE)
         return STATUS_DONE;
     free(*explanations);
@@ -128,8 +127,8 @@ enum status explain_on_cpu(const struct render_plan *plan, enum precision precis
 
 enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatures)
 {
-    struct reference_scene scene;
-    enum status status = reference_scene_create(plan->scene, plan->threads, &scene);
+    struct packed_scene scene;
+    enum status status = reference_scene(plan->scene, plan->threads, &scene);
     *signatures = NULL;
     if (status != STATUS_DONE)
         return status;
@@ -138,7 +137,7 @@ enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatu
         .signatures = allocate_pixels(&plan->window, sizeof **signatures),
     };
     if (picture.rgb && picture.signatures) {
-        reference_render_float(&scene.packed, band_of(plan, 0, plan->window.height),
+        reference_render_float(&scene, band_of(plan, 0, plan->window.height),
                                reference_threads(plan->threads), &picture);
         *signatures = picture.signatures;
     } else {
@@ -146,6 +145,5 @@ enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatu
         status = STATUS_UNABLE;
     }
     free(picture.rgb);
-    reference_scene_destroy(&scene);
     return status;
 }

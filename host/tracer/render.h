@@ -16,6 +16,7 @@ const char *precision_name(enum precision precision);
 struct render_plan {
     const struct packed_scene *scene;
     struct window window;
+    struct strips strips;     /* the window's rows; render_on_...() and spot_check() alone know them */
     enum precision precision; /* quad only on the CPU */
     unsigned threads;         /* of the CPU; 0: one a processor */
     bool fast;                /* on a device */

@@ -56,11 +56,32 @@ static void copy_part(const struct scene_buffer *scene_buffer, const struct pack
         ((struct LoopedSphere *)to)[k] = (struct LoopedSphere){scene->spheres[k], scene->surfaces[k]};
 }
 
-void scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_scene *scene)
+static void copy_parts(const struct scene_buffer *scene_buffer, const struct packed_scene *scene)
 {
     for (int i = 0; i < SCENE_BINDINGS; ++i)
         if (scene_buffer->parts[i].buffer)
             copy_part(scene_buffer, scene, i);
+}
+
+static void write_records(const struct scene_buffer *scene_buffer, const struct sphere_records *records)
+{
+    unsigned char *mapped = scene_buffer->buffer.mapped;
+    sphere_records_write(records, (uint32_t(*)[4])(void *)(mapped + scene_buffer->parts[RECORDS].offset),
+                         (uint32_t *)(void *)(mapped + scene_buffer->parts[RECORD_WORDS].offset));
+}
+
+bool scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_scene *old,
+                         const struct packed_scene *scene)
+{
+    if (old->hierarchy != scene->hierarchy || old->surface_count != scene->surface_count)
+        return false;
+    copy_parts(scene_buffer, scene);
+    const size_t size = (size_t)scene->sphere_count * sizeof *scene->spheres;
+    if (scene->hierarchy && memcmp(old->spheres, scene->spheres, size) != 0) {
+        const struct sphere_records records = sphere_records_plan(scene);
+        write_records(scene_buffer, &records);
+    }
+    return true;
 }
 
 static enum status create_texels(struct vulkan_context *context, VkFormat format, uint64_t count, int i,
@@ -99,11 +120,9 @@ enum status scene_buffer_create(struct vulkan_context *context, const struct pac
         scene_buffer_destroy(context, scene_buffer);
         return status;
     }
-    scene_buffer_update(scene_buffer, scene);
-    unsigned char *mapped = scene_buffer->buffer.mapped;
+    copy_parts(scene_buffer, scene);
     if (storage)
-        sphere_records_write(&records, (uint32_t(*)[4])(void *)(mapped + scene_buffer->parts[RECORDS].offset),
-                             (uint32_t *)(void *)(mapped + scene_buffer->parts[RECORD_WORDS].offset));
+        write_records(scene_buffer, &records);
     return STATUS_DONE;
 }
 

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interrupt.h"
+#include "base/progress.h"
 #include "scene/hierarchy.h"
 
 /* Where a box is on the grid over all boxes. The grid begins so many steps below them that the upper ends,
@@ -20,7 +22,9 @@ struct writing {
     float origin[3], step[3];
     uint32_t (*records)[4]; /* NULL: only counting */
     uint32_t *words, *sphere_words;
-    uint32_t next; /* record */
+    uint32_t next;            /* record */
+    uint64_t written;         /* records of spheres */
+    struct progress progress; /* in such */
 };
 
 static void lay_grid(struct writing *writing, const struct box *box)
@@ -53,13 +57,15 @@ static void write_box(const struct writing *writing, uint32_t record, const stru
 }
 
 /* Writes the sphere of a leaf; `which` place of its is the record. */
-static void write_sphere(const struct writing *writing, uint32_t record, const struct hierarchy_node *leaf,
+static void write_sphere(struct writing *writing, uint32_t record, const struct hierarchy_node *leaf,
                          int which)
 {
     const struct packed_scene *scene = writing->plan->scene;
     const struct PackedSphere *sphere = &scene->spheres[leaf->sphere];
     const uint32_t number = leaf->sphere - (uint32_t)scene->looped_spheres;
     memcpy(writing->records[record], &sphere->center_radius, sizeof *writing->records);
+    if (++writing->written % 65536 == 0)
+        progress_advance(&writing->progress, 65536);
     writing->words[record] = number | (sphere->tags.HOLDS_RAYS ? HOLDS_RAYS_FLAG : 0) |
                              (sphere->tags.HOLDS_LIGHTS ? HOLDS_LIGHTS_FLAG : 0);
     uint32_t *words = writing->sphere_words + (size_t)SPHERE_WORDS * number;
@@ -160,6 +166,9 @@ void sphere_records_write(const struct sphere_records *plan, uint32_t (*records)
         .next = HEAD_RECORDS,
     };
     float largest = 0;
+    interrupt_ends_process(true);
+    progress_start(&writing.progress, "boxes for the device",
+                   2 * (uint64_t)(plan->scene->sphere_count - plan->scene->looped_spheres), false);
     if (plan->stream > 0) {
         writing.nodes = plan->scene->hierarchy->nodes;
         const struct box *box = &writing.nodes->box;
@@ -176,4 +185,6 @@ void sphere_records_write(const struct sphere_records *plan, uint32_t (*records)
     records[STREAM][0] = plan->pairs + HEAD_RECORDS;
     records[STREAM][1] = (uint32_t)sphere_record_count(plan);
     memset(words, 0, HEAD_RECORDS * sizeof *words);
+    progress_end(&writing.progress);
+    interrupt_ends_process(false);
 }

@@ -70,9 +70,9 @@ bool tracer_update(struct tracer *tracer, const struct packed_scene *scene)
     const struct dispatch_size *size = &tracer->dispatcher.size;
     const struct specialization built = specialize(info->context, info->scene, size, &info->options);
     const struct specialization needed = specialize(info->context, scene, size, &info->options);
-    if (scene->hierarchy || memcmp(&built, &needed, sizeof built) != 0)
+    if (memcmp(&built, &needed, sizeof built) != 0 ||
+        !scene_buffer_update(&info->scene_buffer, info->scene, scene))
         return false;
-    scene_buffer_update(&info->scene_buffer, scene);
     info->scene = scene;
     return true;
 }

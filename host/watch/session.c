@@ -75,12 +75,13 @@ static struct picture *prepare(struct session *session, unsigned reduction)
     if (memcmp(&session->file_camera, &scene.camera, sizeof scene.camera) != 0)
         session->file_camera = session->camera = scene.camera;
     scene.camera = session->camera;
+    const struct packed_scene *traced = session->traced ? &session->traced->job.packed : NULL;
     const struct job_options options = reduced_options(&session->options->job, &scene, reduction);
     struct picture *picture = calloc(1, sizeof *picture);
     if (!picture) {
         log_error("no memory for a picture");
         scene_destroy(&scene);
-    } else if (job_create_from(&options, &scene, &picture->job) != STATUS_DONE) {
+    } else if (job_create_from(&options, traced, &scene, &picture->job) != STATUS_DONE) {
         picture_destroy(picture);
         picture = NULL;
     }

@@ -94,7 +94,8 @@ void hostile_scene_create(struct random *random, unsigned count, struct hostile_
         .surfaces = &scene->surface,
     };
     scene->with_tree = scene->without;
-    scene->with_tree.tree = scene->tree = sphere_tree_create(scene->spheres, looped, (int)count, 1);
+    scene->with_tree.tree = scene->tree =
+        sphere_tree_create(scene->spheres, looped, (int)count, 1, NULL, NULL);
     assert(scene->tree);
 }
 

@@ -186,7 +186,8 @@ static void test_scene(struct random *random, struct counts *counts, bool halved
     const uint32_t looped = (uint32_t)packed.looped_spheres, others = (uint32_t)packed.sphere_count - looped;
     if (halved) {
         uint32_t next = 1;
-        hierarchy = (struct hierarchy){calloc(2 * others, sizeof *hierarchy.nodes), 2 * others - 1};
+        hierarchy = (struct hierarchy){.nodes = calloc(2 * others, sizeof *hierarchy.nodes),
+                                       .node_count = 2 * others - 1};
         halve(&hierarchy, scene.spheres, 0, &next, looped, others);
     } else {
         assert_int_equal(hierarchy_build(scene.spheres, looped, others, &hierarchy), STATUS_DONE);

@@ -24,7 +24,7 @@ static void repair_png(uint8_t *bytes, size_t size)
 /* A picture file of 5x3 pixels, PNG, EXR or PFM by its first byte. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static const struct image_wanted wanted = {0, 0, 5, 3, TRANSFER_SRGB};
+    static const struct image_wanted wanted = {{0, 0, 5, 3}, TRANSFER_SRGB};
     const bool png = size > 0 && data[0] == 0x89, exr = size > 0 && data[0] == 0x76;
     struct read_image image;
     uint8_t *bytes = malloc(size + (size == 0));
