@@ -44,6 +44,7 @@ struct Hit {
     float oren_nayar_b;
     int kind;
     int file_order;
+    int others_before; // see OTHERS_BEFORE
     real3 center_offset; // sphere: see Approach
     real half_chord;
 };
@@ -67,6 +68,7 @@ void take(bool closer, inout Hit nearest, real distance, int surface, bool from_
     nearest.oren_nayar_b = closer ? material.more_parameters.OREN_NAYAR_B : nearest.oren_nayar_b;
     nearest.kind = closer ? material.tags.SURFACE_KIND : nearest.kind;
     nearest.file_order = closer ? file_order : nearest.file_order;
+    nearest.others_before = closer ? material.tags.OTHERS_BEFORE : nearest.others_before;
 }
 
 // Whether any ray can run inside sphere i.
@@ -151,6 +153,7 @@ Hit no_hit()
     none.oren_nayar_b = 0.0;
     none.kind = KIND_MATTE;
     none.file_order = 0;
+    none.others_before = 0;
     none.center_offset = real3(0);
     none.half_chord = real(0);
     return none;

@@ -1,7 +1,7 @@
 // What a dispatch leaves when it has used up its turns: the invocation's state, with which the next one goes on.
 // Its path lies on top of the stack.
 
-layout(std430, set = 0, binding = 11) buffer Outcome { uint unfinished; }; // not 0: some invocation is
+layout(std430, set = 0, binding = 11) buffer Outcome { uint unfinished; }; // pixels
 
 Work no_work()
 {
@@ -82,7 +82,7 @@ void save(Work work)
     saved_words[saved_place(1)] = uint(work.pending) << 7 | work.row << 2 | uint(work.fresh) << 1 | uint(work.busy);
     if (done)
         return;
-    atomicOr(unfinished, 1u);
+    atomicAdd(unfinished, uint(bitCount(work.later)) + uint(work.busy));
     exchange(true, work);
 }
 

@@ -47,12 +47,14 @@ typedef struct PackedSurface PackedSurface;
 #define OUTPUT_RAYS 1
 #define OUTPUT_SIGNATURE 2
 
-/* What the device has of the spheres that are not looped over, in records of four words; see hierarchy.glsl. */
-#define GRID_ORIGIN 0  /* records at the beginning: a point of the grid, and the boxes' largest coordinate */
+/* What the device has of the spheres that are not looped over, in records of four words; see hierarchy.glsl.
+ */
+#define GRID_ORIGIN 0 /* records at the beginning: a point of the grid, and the boxes' largest coordinate */
 #define GRID_STEP 1
-#define STREAM 2       /* where the stream begins and ends */
+#define STREAM 2        /* where the stream begins and ends */
 #define HEAD_RECORDS 3u /* the first pair's place */
-#define BOX_FLAG 0xc0000000u /* with a record's number the last word of a box; that of a sphere is its radius */
+#define BOX_FLAG                                                                                             \
+    0xc0000000u /* with a record's number the last word of a box; that of a sphere is its radius */
 
 /* A word for each record: the number of its sphere, and flags; behind them some for each sphere. */
 #define HOLDS_RAYS_FLAG 0x80000000u
@@ -60,8 +62,7 @@ typedef struct PackedSurface PackedSurface;
 #define PLACE_IN_PAIRS 0
 #define PLACE_IN_STREAM 1
 #define SPHERE_SURFACE 2 /* index into the scene's surfaces */
-#define SPHERE_ORDER 3   /* FILE_ORDER */
-#define SPHERE_WORDS 4
+#define SPHERE_WORDS 3
 
 /* The slots of vectors and of words in which an invocation keeps its work between dispatches; behind them is
  * its stack. */
@@ -133,10 +134,13 @@ struct EventHead {
     y /* of spheres and of planes' surfaces: place in the scene file, where each row of a file of            \
        * spheres counts; the first of equally near surfaces is hit */
 #define CASTS_SHADOWS z /* of planes: 0 where a plane cannot stand between a light and what is seen */
-#define SURFACE x       /* of spheres: index into the scene's surfaces */
-#define HOLDS_RAYS z    /* of spheres: a ray or a shading point may lie inside, other than on the surface */
-#define HOLDS_LIGHTS w  /* of spheres: so may a point of a light */
-#define SHARED_A x      /* PackedView.matte: Oren-Nayar's A and B, where all matte surfaces share them */
+#define OTHERS_BEFORE                                                                                        \
+    w /* of planes' surfaces and of those of spheres that are looped over: how many other spheres come       \
+         before */
+#define SURFACE x      /* of spheres: index into the scene's surfaces */
+#define HOLDS_RAYS z   /* of spheres: a ray or a shading point may lie inside, other than on the surface */
+#define HOLDS_LIGHTS w /* of spheres: so may a point of a light */
+#define SHARED_A x     /* PackedView.matte: Oren-Nayar's A and B, where all matte surfaces share them */
 #define SHARED_B y
 #define RADIANCE_BOUND x  /* PackedView.truncation: no ray brings more radiance than this */
 #define ALLOWANCE y       /* what a sample may be charged for rays left out; negative: none is left out */

@@ -24,7 +24,7 @@
 #include "tracer/reference_scene.h"
 #include "tracer/sphere_records.h"
 
-enum { ROWS = 100000, LATE_MS = 30, MILLISECOND = 1000000 /* ns */ };
+enum { ROWS = 70000, LATE_MS = 15, MILLISECOND = 1000000 /* ns */ };
 
 /* With the linker's --wrap. As if each look at the clock came a second after the last one, where so. */
 static bool slow;
@@ -93,7 +93,7 @@ static void interrupted(void **state)
 {
     int interruptions = 0;
     (void)state;
-    for (long after_ms = 5;; after_ms += 40) {
+    for (long after_ms = 5;; after_ms += 20) {
         struct rusage usage;
         int how;
         const pid_t child = fork();

@@ -91,7 +91,7 @@ enum status command_render(const struct options *options)
             context ? render_on_device(context, &job.plan, &rendering) : render_on_cpu(&job.plan, &rendering);
     if (status == STATUS_DONE) {
         rendering.setup_ms += context_ms;
-        if (context && !job.plan.fast)
+        if (context && !job.plan.fast && !job.plan.shaders)
             status = spot_check(&job.plan, &rendering.image, context->properties.deviceName);
         if (status == STATUS_DONE)
             status = deliver(options, &job, &rendering, context);

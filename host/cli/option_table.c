@@ -152,6 +152,9 @@ enum {
 const struct option_entry option_table[] = {
     {"size", "", RENDER | CHECK | WATCH | BENCH | PIXEL, OTHER("WxH", read_size),
      "pixels of the picture, instead of the scene's"},
+    {"shaders", "", RENDER | CHECK | WATCH | BENCH | PIXEL, TEXT("DIR", shaders.path),
+     "the folder of a whitted.comp, which is compiled now, in the\n"
+     "place of the program's own"},
 
     {"max-bounces", "", RENDER | CHECK | WATCH | PIXEL, NUMBER(job.max_bounces, 0, SCENE_MAX_BOUNCES),
      "bounces after which a ray is black, instead of the scene's"},
@@ -192,10 +195,13 @@ const struct option_entry option_table[] = {
      "a and b agree where |a - b| <= ABS + REL max(|a|, |b|)\n"
      "(default: where they are the same bits)"},
     {"allow", "", CHECK, NUMBER(allow, 0, UINT_MAX), "pixels that may differ or be unexplained"},
-    {"heatmap", "", CHECK, TEXT("FILE.png", heatmap), "where they differ, as a picture"},
+    {"heatmap", "", CHECK, TEXT("FILE.png", heatmap),
+     "where they differ, as a picture; DIR/: one for each scene\n"
+     "that differs, in that folder"},
     {"picture", "", CHECK, TEXT("FILE", picture),
      "judge this picture (.exr, .pfm, .png) by any other program\n"
      "instead of one's own (default --against double)"},
+    {"junit", "", CHECK, TEXT("FILE.xml", junit), "the result for CI, a test case a scene"},
 
     {"against", "", CHECK | PIXEL, CHOICE("double|quad", against, PRECISION_DOUBLE),
      "judge the float picture by a more precise one: errors, their\n"
@@ -203,7 +209,6 @@ const struct option_entry option_table[] = {
 
     {"json", "", CHECK | PIXEL | BENCH, TEXT("FILE", json), "the result for machines"},
 
-    {"shaders", "", WATCH, TEXT("DIR", shaders), "the folder of whitted.comp (default: the program's)"},
     {"check", "", WATCH, FLAG(check), "compare each picture with the reference in the background"},
     {"window", "", WATCH, FLAG(window),
      "show it in a window (default on a display, without -o): drag,\n"

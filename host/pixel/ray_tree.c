@@ -42,8 +42,8 @@ enum status ray_tree_on_device(struct vulkan_context *context, const struct rend
     const size_t event_size = sizeof(struct EventHead) + EVENT_VALUES * sizeof(double);
     const size_t fitting = context->properties.limits.maxStorageBufferRange / event_size - 1;
     const size_t kept = MIN(MIN(expected, MOST_EVENTS), fitting);
-    const struct tracer_options options = {.double_precision = double_precision,
-                                           .event_room = (uint32_t)kept};
+    const struct tracer_options options = {
+        .double_precision = double_precision, .event_room = (uint32_t)kept, .shaders = plan->shaders};
     struct progress unseen = {.total = 1};
     struct tracer *tracer = NULL;
     struct image image;

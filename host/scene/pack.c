@@ -22,6 +22,7 @@ struct packing {
     double scale; /* from metres to scene units, a power of two */
     struct looped looped;
     const struct packed_scene *other; /* whose hierarchy may be shared; may be NULL */
+    int others_before;                /* spheres that are not looped over, before the body that is packed */
     struct packed_scene *packed;
 };
 
@@ -100,6 +101,7 @@ static void pack_body(struct packing *packing, const struct scene_object *object
     struct packed_scene *packed = packing->packed;
     const struct body body = body_of(object, row);
     PackedSurface surface = pack_surface(packing->scene, object, order);
+    surface.tags.OTHERS_BEFORE = packing->others_before;
     bool turned = !body.is_ball && !is_transparent(&surface) &&
                   body_distance(body, dvec3_of(packing->scene->camera.position)) < 0;
     double sign = turned ? -1 : 1;
@@ -127,6 +129,8 @@ static void pack_planes_and_looped(struct packing *packing)
         for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row, ++order)
             if (scene->objects[i].type == OBJECT_PLANE || is_looped(&packing->looped, sphere++))
                 pack_body(packing, &scene->objects[i], row, order);
+            else
+                ++packing->others_before;
 }
 
 /* The other spheres of an object, whose first body has that place in the file; *sphere is its first one's

@@ -54,8 +54,8 @@ enum status render_repeatedly(render_once *render, void *renderer, const struct 
         status = image->truncation ? STATUS_DONE : STATUS_UNABLE;
     }
     struct progress progress;
-    uint64_t pixels = (uint64_t)plan->window.width * plan->window.height;
-    progress_start(&progress, "rendering", pixels * (plan->repeat + 1), plan->quiet);
+    uint64_t samples = (uint64_t)plan->window.width * plan->window.height * (uint64_t)plan->scene->samples;
+    progress_start(&progress, "rendering", samples * (plan->repeat + 1), plan->quiet);
     if (status == STATUS_DONE)
         status = render_strips(render, renderer, plan, image, &progress, &rendering->times);
     rendering->first_dispatch_ms = rendering->times.dispatch_ms;

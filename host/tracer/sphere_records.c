@@ -12,6 +12,8 @@
  * the shader would compute with where it takes boxes for spheres, and ignore. */
 enum { STEPS_BELOW = 257, STEPS = 65200 };
 
+enum { NODES_A_STEP = 16384 }; /* of the progress */
+
 /* A box of the stream is worth its record if it is smaller than that of the record above by this factor: 0.6
  * to 0.9 cost the same, within noise, 1 (all boxes) a tenth more. */
 static const float worth = 0.75F;
@@ -22,9 +24,8 @@ struct writing {
     float origin[3], step[3];
     uint32_t (*records)[4]; /* NULL: only counting */
     uint32_t *words, *sphere_words;
-    uint32_t next;            /* record */
-    uint64_t written;         /* records of spheres */
-    struct progress progress; /* in such */
+    uint32_t next;             /* record of the stream */
+    struct progress *progress; /* in nodes, each of which is written twice */
 };
 
 static void lay_grid(struct writing *writing, const struct box *box)
@@ -57,21 +58,18 @@ static void write_box(const struct writing *writing, uint32_t record, const stru
 }
 
 /* Writes the sphere of a leaf; `which` place of its is the record. */
-static void write_sphere(struct writing *writing, uint32_t record, const struct hierarchy_node *leaf,
+static void write_sphere(const struct writing *writing, uint32_t record, const struct hierarchy_node *leaf,
                          int which)
 {
     const struct packed_scene *scene = writing->plan->scene;
     const struct PackedSphere *sphere = &scene->spheres[leaf->sphere];
     const uint32_t number = leaf->sphere - (uint32_t)scene->looped_spheres;
     memcpy(writing->records[record], &sphere->center_radius, sizeof *writing->records);
-    if (++writing->written % 65536 == 0)
-        progress_advance(&writing->progress, 65536);
     writing->words[record] = number | (sphere->tags.HOLDS_RAYS ? HOLDS_RAYS_FLAG : 0) |
                              (sphere->tags.HOLDS_LIGHTS ? HOLDS_LIGHTS_FLAG : 0);
     uint32_t *words = writing->sphere_words + (size_t)SPHERE_WORDS * number;
     words[which] = record;
     words[SPHERE_SURFACE] = (uint32_t)sphere->tags.SURFACE;
-    words[SPHERE_ORDER] = (uint32_t)sphere->tags.FILE_ORDER;
 }
 
 /* A record that is no box, and a sphere that is never met. */
@@ -81,32 +79,31 @@ static void write_nothing(const struct writing *writing, uint32_t record)
     writing->words[record] = 0;
 }
 
-static void write_pair(struct writing *writing, uint32_t node);
-
-static void write_child(struct writing *writing, uint32_t record, uint32_t node)
+/* Each node but the root has its record in the place of its number: children lie side by side. */
+static uint32_t record_of(uint32_t node)
 {
-    const struct hierarchy_node *child = &writing->nodes[node];
-    if (child->left == 0) {
-        write_sphere(writing, record, child, PLACE_IN_PAIRS);
-        return;
-    }
-    write_box(writing, record, &child->box, writing->next);
-    write_pair(writing, node);
+    return HEAD_RECORDS + node - 1;
 }
 
-/* Writes the records of the node's children, side by side, and what is below them. */
-static void write_pair(struct writing *writing, uint32_t node)
+static void write_pairs(const struct writing *writing, struct progress *progress)
 {
-    const uint32_t record = writing->next;
-    writing->next += 2;
-    const uint32_t left = writing->nodes[node].left;
-    if (left == 0) { /* of a single sphere */
-        write_sphere(writing, record, &writing->nodes[node], PLACE_IN_PAIRS);
-        write_nothing(writing, record + 1);
-        return;
+    const struct hierarchy *hierarchy = writing->plan->scene->hierarchy;
+    if (hierarchy->node_count == 1) {
+        write_sphere(writing, HEAD_RECORDS, hierarchy->nodes, PLACE_IN_PAIRS);
+        write_nothing(writing, HEAD_RECORDS + 1);
     }
-    write_child(writing, record, left);
-    write_child(writing, record + 1, left + 1);
+#pragma omp parallel for schedule(dynamic) if (hierarchy->node_count > NODES_A_STEP)
+    for (uint32_t first = 1; first < hierarchy->node_count; first += NODES_A_STEP) {
+        for (uint32_t i = first; i < hierarchy->node_count && i < first + NODES_A_STEP; ++i) {
+            const struct hierarchy_node *node = &hierarchy->nodes[i];
+            if (node->left == 0)
+                write_sphere(writing, record_of(i), node, PLACE_IN_PAIRS);
+            else
+                write_box(writing, record_of(i), &node->box, record_of(node->left));
+        }
+#pragma omp critical(records_progress)
+        progress_advance(progress, NODES_A_STEP);
+    }
 }
 
 /* Writes the subtree as it comes depth first, the larger child before the smaller one: what blocks a light is
@@ -118,6 +115,8 @@ static void write_stream(struct writing *writing, uint32_t place, float above)
     if (node->left == 0) {
         if (writing->records)
             write_sphere(writing, record, node, PLACE_IN_STREAM);
+        if (writing->records && node->sphere % NODES_A_STEP == 0)
+            progress_advance(writing->progress, 2 * NODES_A_STEP);
         ++writing->next;
         return;
     }
@@ -158,24 +157,26 @@ uint64_t sphere_word_count(const struct sphere_records *plan)
 
 void sphere_records_write(const struct sphere_records *plan, uint32_t (*records)[4], uint32_t *words)
 {
+    struct progress progress;
     struct writing writing = {
         .plan = plan,
         .records = records,
         .words = words,
         .sphere_words = words + sphere_record_count(plan),
-        .next = HEAD_RECORDS,
+        .next = HEAD_RECORDS + plan->pairs,
+        .progress = &progress,
     };
     float largest = 0;
     interrupt_ends_process(true);
-    progress_start(&writing.progress, "boxes for the device",
-                   2 * (uint64_t)(plan->scene->sphere_count - plan->scene->looped_spheres), false);
+    progress_start(&progress, "boxes for the device",
+                   4 * (uint64_t)(plan->scene->sphere_count - plan->scene->looped_spheres), false);
     if (plan->stream > 0) {
         writing.nodes = plan->scene->hierarchy->nodes;
         const struct box *box = &writing.nodes->box;
         for (int a = 0; a < 3; ++a)
             largest = fmaxf(largest, fmaxf(-box->lo[a], box->hi[a]));
         lay_grid(&writing, box);
-        write_pair(&writing, 0);
+        write_pairs(&writing, &progress);
         write_stream(&writing, 0, INFINITY);
     }
     const layout_vec4 origin = {writing.origin[0], writing.origin[1], writing.origin[2], largest};
@@ -185,6 +186,6 @@ void sphere_records_write(const struct sphere_records *plan, uint32_t (*records)
     records[STREAM][0] = plan->pairs + HEAD_RECORDS;
     records[STREAM][1] = (uint32_t)sphere_record_count(plan);
     memset(words, 0, HEAD_RECORDS * sizeof *words);
-    progress_end(&writing.progress);
+    progress_end(&progress);
     interrupt_ends_process(false);
 }

@@ -102,20 +102,7 @@ static enum status compile_anew(struct session *session)
 {
     struct inputs *inputs = &session->inputs;
     struct compilation compilation;
-    const struct shader_choice choice = session->choice;
-    char problem[128];
-    enum status status = shader_compile(
-        inputs->shader_path, whitted_defines(choice.variant, choice.scene_in_storage), &compilation);
-    if (status == STATUS_DONE &&
-        !tracer_provides((struct spirv){compilation.words, compilation.size}, choice, problem)) {
-        free(compilation.messages);
-        status = STATUS_REFUSED;
-        if (asprintf(&compilation.messages, "%s: error: %s\n", inputs->shader_path, problem) < 0) {
-            compilation.messages = NULL;
-            log_error("no memory for a message");
-            status = STATUS_UNABLE;
-        }
-    }
+    enum status status = shader_build(inputs->shader_path, session->choice, &compilation);
     if ((status == STATUS_DONE || status == STATUS_REFUSED) &&
         !inputs_follow(inputs, &compilation.files, status == STATUS_REFUSED))
         status = STATUS_DIFFERS;

@@ -8,6 +8,19 @@ missing_scene() {
     done
 }
 
+# A scene of the program's by its name, but for a file of that name.
+scene_by_name() {
+    expect 0 "$VKWHITTED" check $small figure_4 hard/bubble figure_2a.yaml
+    said "^$SOURCE_DIR/scenes/hard/bubble.yaml: 0 of 2400 pixels differ" out
+    [ "$(wc -l <out)" -eq 3 ] || fail 'not three scenes'
+    refused 2 "figure_5: no such scene; expected a scene file, or one of the program's: figure_2a, .*, sphereflake \(all: $SOURCE_DIR/scenes\)$" check figure_4 figure_5
+    refused 2 "expected a scene file, or one of the program's: figure_2a, " render
+    expect 2 "$VKWHITTED" check ./figure_4
+    echo 'camera: 5' >figure_4
+    expect 2 "$VKWHITTED" render figure_4
+    said '^figure_4:1:1: error'
+}
+
 folder_as_scene() {
     expect 2 "$VKWHITTED" render .
     said 'error: '

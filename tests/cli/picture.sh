@@ -76,7 +76,7 @@ refusals() {
     refused 2 'a.png: cannot read PNG: Not a PNG file$' check $small --picture a.png "$figure"
     refused 2 '--transfer is for the .png of --picture' check --transfer linear "$figure"
     refused 2 '--picture takes one scene file' check --picture a.exr "$figure" "$figure"
-    for option in '--device 0' --validate --fast '--precision double' '--max-error 1e-3' '--backend cpu'; do
+    for option in '--device 0' --validate --fast '--precision double' '--max-error 1e-3' '--backend cpu' "--shaders $SOURCE_DIR/shaders"; do
         refused 2 '--picture goes with no device, backend or precision' check $option --picture a.exr "$figure"
     done
 }

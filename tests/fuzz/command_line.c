@@ -27,7 +27,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     if (status != STATUS_DONE && status != STATUS_REFUSED && status != STATUS_UNABLE)
         abort();
-    free(options.outputs);
+    options_destroy(&options);
     free(text);
     return 0;
 }
