@@ -110,11 +110,13 @@ static inline struct errors errors_through(double norm, double factor, struct ve
                            smaller(fabs(factor - pz * qz) * e.z + fabs(pz) * (x + y), most), most};
 }
 
-/* Of v once it has been put to length 1, which v is but for such errors: by normalize(), and more than enough
- * for renormalize(). */
+/* What the length of a unit vector may be off by: normalize()'s roundings, and more than renormalize()'s. */
+static const double length_roundings = 4.5;
+
+/* Of v once it has been put to length 1, which v is but for such errors. */
 static inline struct errors unit_errors(struct vec3 v, struct errors e)
 {
-    return errors_add(errors_through(1, 1, v, v, e), errors_of(4.5, v));
+    return errors_add(errors_through(1, 1, v, v, e), errors_of(length_roundings, v));
 }
 
 struct ray_errors {
@@ -166,12 +168,15 @@ static inline struct hit_error track_sphere_hit(layout_vec4 sphere, const struct
     const struct vec3 across = approach.center_offset;
     const struct errors e_across =
         errors_add(errors_of(1, scale(approach.along, direction)), errors_of(1, across));
-    const double e_along = errors_weigh(to_center, errors_of(3, direction));
+    /* a direction's length counts twice, in the product and times it */
+    const double e_along = errors_weigh(to_center, errors_of(3, direction)) +
+                           2 * length_roundings * unit_roundoff * fabs((double)approach.along);
     const double e_half_chord =
-        (errors_weigh(across, e_across) + 2 * unit_roundoff * radius * radius) / half_chord +
+        (errors_weigh(across, e_across) + e_along * e_along + 2 * unit_roundoff * radius * radius) /
+            half_chord +
         unit_roundoff * half_chord;
-    struct errors rounded =
-        errors_add(e_across, errors_along(direction, e_along + e_half_chord + unit_roundoff * half_chord));
+    const double e_forward = e_along + e_half_chord + (1 + length_roundings) * unit_roundoff * half_chord;
+    struct errors rounded = errors_add(e_across, errors_along(direction, e_forward));
     rounded = errors_add(rounded, errors_of(radius, hit->normal));
     const struct errors moved =
         errors_add(moved_errors(error, (double)hit->distance), errors_of(1, to_center));
@@ -182,7 +187,8 @@ static inline struct hit_error track_sphere_hit(layout_vec4 sphere, const struct
     const struct errors sum =
         errors_add(errors_through(1, 1, hit->normal, hit->normal, rounded),
                    errors_scale(larger(stretch, 1), meeting_error(ray, hit->normal, moved)));
-    const struct errors normal = errors_add(errors_scale(1 / radius, sum), errors_of(4.5, hit->normal));
+    const struct errors normal =
+        errors_add(errors_scale(1 / radius, sum), errors_of(length_roundings, hit->normal));
     return (struct hit_error){
         .normal = normal,
         .distance = larger(stretch, 1) * errors_weigh(hit->normal, moved) / cos + e_along + e_half_chord,
@@ -210,9 +216,70 @@ static inline struct hit_error track_plane_hit(layout_vec4 plane, const struct r
     struct errors point = errors_add(meeting_error(ray, normal, moved),
                                      errors_along(subtract(direction, scale(slope, normal)), e_distance));
     point = errors_add(errors_scale(grown, point), errors_through(1, 1, normal, normal, rounded));
-    point = errors_add(point, errors_along(normal, errors_weigh(normal, errors_of(3, hit->point))));
+    const struct errors off = errors_scale(
+        4 * unit_roundoff, errors_add(rounded, errors_along(direction, e_distance))); /* roundings of those */
+    const double e_residual = errors_weigh(normal, errors_add(errors_of(3, hit->point), off));
+    point = errors_add(point, errors_add(off, errors_along(normal, e_residual)));
     return (struct hit_error){
         .distance = grown * errors_weigh(normal, moved) / size + e_distance,
+        .point = errors_add(point, errors_of(1, hit->point)),
+    };
+}
+
+/* What rounding makes of the height of a point: five roundings of each term and
+ * one of the difference. */
+static inline double height_rounding(const struct giant *giant, struct vec3 point)
+{
+    const struct vec3 bend = scale(giant->curvature / 2, point);
+    return errors_weigh(point, errors_add(errors_of(6, giant->gradient), errors_of(6, bend))) +
+           unit_roundoff * fabs((double)giant->offset);
+}
+
+static inline struct hit_error track_giant_hit(const struct giant *giant, const struct ray *ray,
+                                               const struct ray_errors *error, const struct hit *hit)
+{
+    const struct vec3 normal = hit->normal, direction = ray->direction, origin = ray->origin;
+    const struct vec3 bend = scale(giant->curvature, origin);
+    const struct giant_line line = giant_line(giant, origin, direction, true);
+    const double curvature = (double)giant->curvature, distance = (double)hit->distance;
+    const double slope = fabs((double)line.slope), root = fabs((double)dot(normal, direction));
+    const double e_slope = errors_weigh(giant_gradient(giant, origin), error->direction) +
+                           curvature * errors_weigh(direction, error->origin);
+    const double r_slope =
+        errors_weigh(direction, errors_add(errors_of(5, giant->gradient), errors_of(5, bend)));
+    const struct errors moved = moved_errors(error, distance);
+    struct errors point;
+    double e_distance, r_distance;
+    if (ray->surface == hit->surface) { /* a chord */
+        r_distance = 2 * r_slope / curvature + 2 * unit_roundoff * distance;
+        e_distance = 2 * e_slope / curvature;
+        point =
+            errors_add(errors_through(1, 1, normal, normal, moved),
+                       errors_along(subtract(direction, scale(dot(normal, direction), normal)), e_distance));
+    } else {
+        const double r_height = height_rounding(giant, origin) + distance * r_slope;
+        const double r_root =
+            unit_roundoff * ((slope * slope + 2 * curvature * fabs((double)line.height)) / root + root);
+        /* the slope at the surface, by which heights are divided, changes on the way */
+        const double steep = larger(root - e_slope - r_slope, root / 2);
+        const double off = errors_weigh(normal, moved) + r_height;
+        const double stretch = 2 * root / (steep + sqrt(larger(steep * steep - 2 * curvature * off, 0)));
+        r_distance = stretch * r_height / root + distance * (r_root / (slope + root) + 3 * unit_roundoff);
+        e_distance = stretch * errors_weigh(normal, moved) / root;
+        point = errors_scale(stretch, meeting_error(ray, normal, moved));
+    }
+    const struct errors rounded = errors_add(errors_of(distance, direction), errors_of(1, hit->point));
+    const struct errors turned =
+        errors_scale(curvature, errors_add(moved, errors_along(direction, e_distance + r_distance)));
+    point = errors_add(point,
+                       errors_along(subtract(direction, scale(dot(normal, direction), normal)), r_distance));
+    point = errors_add(point, errors_through(1, 1, normal, normal, rounded));
+    point = errors_add(point, errors_along(normal, height_rounding(giant, hit->point)));
+    return (struct hit_error){
+        .normal = unit_errors(
+            normal, errors_add(turned, errors_add(errors_of(1, normal),
+                                                  errors_of(1, scale(giant->curvature, hit->point))))),
+        .distance = e_distance + r_distance,
         .point = errors_add(point, errors_of(1, hit->point)),
     };
 }
@@ -220,6 +287,10 @@ static inline struct hit_error track_plane_hit(layout_vec4 plane, const struct r
 static inline struct hit_error track_hit(const struct packed_scene *scene, const struct ray *ray,
                                          const struct ray_errors *error, const struct hit *hit)
 {
+    if (is_giant(scene, hit->surface)) {
+        const struct giant giant = giant_of(scene, hit->surface);
+        return track_giant_hit(&giant, ray, error, hit);
+    }
     if (hit->surface < scene->sphere_count)
         return track_sphere_hit(scene->spheres[hit->surface].center_radius, ray, error, hit);
     return track_plane_hit(scene->planes[hit->surface - scene->sphere_count].normal_offset, ray, error, hit);
@@ -232,8 +303,9 @@ static inline struct errors track_reflection(struct vec3 direction, struct error
     const struct vec3 twice = scale(2, normal);
     const real cos_in = -dot(normal, direction);
     const struct vec3 reflected = add(direction, scale(cos_in, twice));
-    struct errors sum = errors_add(errors_through(1, 1, twice, normal, e_direction),
-                                   errors_through(2, 2 * (double)cos_in, twice, direction, e_normal));
+    struct errors sum =
+        errors_add(errors_through(1, 1, twice, normal, e_direction),
+                   errors_through(2 + 2 * (double)cos_in, 2 * (double)cos_in, twice, direction, e_normal));
     sum = errors_add(sum, errors_along(twice, dot_error(normal, none, direction, none) +
                                                   unit_roundoff * fabs((double)cos_in)));
     return unit_errors(reflected, errors_add(sum, errors_of(1, reflected)));

@@ -84,7 +84,7 @@ static inline int find_blocker_in_tree(const struct packed_scene *scene, const s
 static inline int find_blocker(const struct packed_scene *scene, const struct segment *segment)
 {
     int i = 0;
-    while (i < tried_spheres(scene) && !sphere_blocks(&scene->spheres[i], i, segment))
+    while (i < tried_spheres(scene) && !tried_sphere_blocks(scene, i, segment))
         ++i;
     if (scene->tree && i == tried_spheres(scene))
         i = find_blocker_in_tree(scene, segment);

@@ -64,6 +64,8 @@ static void decide(struct pixel *pixel, struct tracked_path *path, double margin
     pixel->margin = smaller(pixel->margin, margin);
     if (margin >= 1)
         return;
+    if (pixel->scene->view.truncation.RADIANCE_BOUND >= (float)UNBOUNDED)
+        cause = CAUSE_UNKNOWN;
     widen(pixel, most_radiance(pixel, path->weight + path->e_weight), cause);
     path->followed = false;
 }

@@ -35,6 +35,40 @@ static inline double sphere_block_margin(const struct PackedSphere *sphere, int 
     return smaller(margin, conjunction_margin(&blocked));
 }
 
+/* Of a giant. */
+static inline double giant_block_margin(const struct packed_scene *scene, int i,
+                                        const struct segment *segment, double e_from, double e_direction,
+                                        bool *blocks)
+{
+    const layout_ivec4 tags = scene->spheres[i].tags;
+    const bool own = segment->surface == i;
+    *blocks = tried_sphere_blocks(scene, i, segment);
+    if (own && !segment->inward)
+        return INFINITY;
+    struct giant giant = giant_of(scene, i);
+    struct tracked_giant_line line =
+        track_giant_line(&giant, segment->from, segment->direction, (struct ray_error){e_from, e_direction},
+                         !own && tags.HOLDS_RAYS != 0);
+    double margin = INFINITY;
+    bool inside = own || line.height < 0;
+    if (tags.HOLDS_LIGHTS != 0) {
+        double height = (double)giant_height(&giant, segment->to);
+        margin = margin_of(height, height_error(&giant, segment->to, rounding(length(segment->to))));
+        inside = inside || height < 0;
+    }
+    if (!own && tags.HOLDS_RAYS != 0)
+        margin = smaller(margin, margin_of(line.height, line.e_height));
+    if (inside)
+        return margin; /* where the ends lie decides all */
+    double bend = (double)giant.curvature * (double)segment->length;
+    struct conjunction blocked = conjunction_begin();
+    require_positive(&blocked, -line.slope, line.e_slope);
+    require_positive(&blocked, line.root_squared, line.e_root_squared);
+    require_positive(&blocked, bend + line.slope,
+                     line.e_slope + (double)giant.curvature * e_from + rounding(bend));
+    return smaller(margin, conjunction_margin(&blocked));
+}
+
 static inline double plane_block_margin(const struct PackedPlane *plane, int surface,
                                         const struct segment *segment, double e_from, bool *blocks)
 {
@@ -71,7 +105,9 @@ static inline void add_sphere(const struct packed_scene *scene, int i, const str
                               double e_from, double e_direction, struct shadow *shadow)
 {
     bool blocks;
-    double margin = sphere_block_margin(&scene->spheres[i], i, segment, e_from, e_direction, &blocks);
+    double margin = is_giant(scene, i)
+                        ? giant_block_margin(scene, i, segment, e_from, e_direction, &blocks)
+                        : sphere_block_margin(&scene->spheres[i], i, segment, e_from, e_direction, &blocks);
     add_blocker(shadow, blocks, margin);
 }
 
@@ -256,7 +292,8 @@ static inline void track_quad(const struct packed_scene *scene, int number, cons
         real projected = dot(area, to_light);
         bool lit = sample.received > 0 && projected > 0;
         note(tally, lit);
-        double e_projected = dot_error(area, none, sample.direction, sample.e_direction);
+        double e_projected =
+            dot_error(area, none, sample.direction, sample.e_direction) + FLT_MIN; /* denormal */
         double largest = larger((double)dot(area, sample.direction) + e_projected, 0);
         NOTE_AREA_BOUND(e_projected);
         RECORD_LIGHT(scene->point_light_count + number, k, light, projected);

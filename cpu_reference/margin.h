@@ -87,11 +87,68 @@ static inline bool contains(const struct PackedSphere *sphere, struct vec3 point
     return lies_inside(subtract(vector_of(sphere->center_radius), point), sphere->center_radius.w);
 }
 
+/* Of a height over a giant; no gradient on the way to the point is longer than `steepest`. */
+static inline double height_error(const struct giant *giant, struct vec3 point, double e_point)
+{
+    double steepest = length(giant->gradient) + (double)giant->curvature * length(point);
+    return e_point * steepest + rounding(fabs((double)giant->offset) + length(point) * steepest);
+}
+
+/* As giant_line(), with errors. */
+struct tracked_giant_line {
+    double height, e_height, slope, e_slope;
+    double root_squared, e_root_squared;
+    double root, e_root;
+};
+
+static inline struct tracked_giant_line track_giant_line(const struct giant *giant, struct vec3 origin,
+                                                         struct vec3 direction, struct ray_error error,
+                                                         bool may_be_inside)
+{
+    struct giant_line line = giant_line(giant, origin, direction, may_be_inside);
+    double curvature = (double)giant->curvature;
+    double steepest = length(giant->gradient) + curvature * length(origin);
+    struct tracked_giant_line tracked = {
+        .height = (double)line.height,
+        .e_height = height_error(giant, origin, error.origin),
+        .slope = (double)line.slope,
+        .e_slope = error.direction * steepest + curvature * error.origin + rounding(steepest),
+        .root_squared = (double)line.root_squared,
+        .root = (double)giant_root(&line),
+    };
+    tracked.e_root_squared = (2 * fabs(tracked.slope) + tracked.e_slope) * tracked.e_slope +
+                             2 * curvature * tracked.e_height +
+                             rounding(tracked.slope * tracked.slope + 2 * curvature * fabs(tracked.height));
+    tracked.e_root = root_error(tracked.root * tracked.root, tracked.e_root_squared);
+    return tracked;
+}
+
+/* Error of the distance at which the line meets the giant: a chord; from inside; or from outside, where it is
+ * 2 height / (root - slope). Where the line is certain to meet it, e_slope + e_root is at most 3/4 of that.
+ */
+static inline double giant_distance_error(const struct giant *giant, const struct tracked_giant_line *line,
+                                          bool chord, double distance)
+{
+    double curvature = (double)giant->curvature, e_divisor = line->e_slope + line->e_root;
+    double divisor = fabs(line->slope) + line->root;
+    if (chord)
+        return 2 * line->e_slope / curvature + rounding(distance);
+    if (line->height < 0 && line->slope <= 0)
+        return e_divisor / curvature + rounding(distance);
+    return (2 * line->e_height + distance * e_divisor) / larger(divisor - e_divisor, divisor / 4) +
+           rounding(distance);
+}
+
 /* Error of a distance along the ray to the surface, which the ray meets; INFINITY where float may take the
  * ray to run along a plane. */
 static inline double distance_error(const struct packed_scene *scene, const struct ray *ray, int surface,
                                     double distance, struct ray_error error)
 {
+    if (is_giant(scene, surface)) {
+        struct giant giant = giant_of(scene, surface);
+        struct tracked_giant_line line = track_giant_line(&giant, ray->origin, ray->direction, error, true);
+        return giant_distance_error(&giant, &line, ray->surface == surface, distance);
+    }
     if (surface < scene->sphere_count) {
         struct tracked_approach approach =
             track_approach(scene->spheres[surface].center_radius, ray->origin, ray->direction, error);
@@ -103,11 +160,40 @@ static inline double distance_error(const struct packed_scene *scene, const stru
     return slope > 0 ? (error.origin + distance * error.direction + rounding(size)) / slope : INFINITY;
 }
 
+/* As sphere_margin(). */
+static inline double giant_margin(const struct packed_scene *scene, int i, const struct ray *ray,
+                                  struct ray_error error, double nearest_distance, double e_nearest)
+{
+    const bool own = ray->surface == i, holds_rays = !own && scene->spheres[i].tags.HOLDS_RAYS != 0;
+    struct giant giant = giant_of(scene, i);
+    struct tracked_giant_line line = track_giant_line(&giant, ray->origin, ray->direction, error, holds_rays);
+    real distance;
+    bool from_inside;
+    bool met = meet_giant(&giant, holds_rays, i, ray, &distance, &from_inside);
+    if (own && !met)
+        return INFINITY;
+    double margin = holds_rays ? margin_of(line.height, line.e_height) : INFINITY;
+    if (from_inside) /* certain to be met, at its far side */
+        return smaller(margin,
+                       margin_of(nearest_distance - (double)distance,
+                                 e_nearest + giant_distance_error(&giant, &line, own, (double)distance)));
+    struct conjunction before = conjunction_begin();
+    require_positive(&before, -line.slope, line.e_slope);
+    require_positive(&before, line.root_squared, line.e_root_squared);
+    /* as for planes: 2 height / divisor < nearest_distance */
+    double divisor = line.root - line.slope, e_divisor = line.e_slope + line.e_root;
+    require_positive(&before, nearest_distance * divisor - 2 * line.height,
+                     2 * line.e_height + nearest_distance * e_divisor + e_nearest * fabs(divisor));
+    return smaller(margin, conjunction_margin(&before));
+}
+
 /* Margin of a sphere's not being the nearest hit, which is at nearest_distance +- e_nearest. */
 static inline double sphere_margin(const struct packed_scene *scene, int i, const struct ray *ray,
                                    struct ray_error error, double nearest_distance, double e_nearest)
 {
     const struct PackedSphere *sphere = &scene->spheres[i];
+    if (is_giant(scene, i))
+        return giant_margin(scene, i, ray, error, nearest_distance, e_nearest);
     struct tracked_approach approach =
         track_approach(sphere->center_radius, ray->origin, ray->direction, error);
     if (ray->surface == i) /* certain to be met, at its far side, or certain not to be */

@@ -37,6 +37,7 @@ enum reference_cause {
     CAUSE_HIT,        /* float may hit another surface, or none */
     CAUSE_SHADOW,     /* a point of a light may be hidden in float and is not, or the other way round */
     CAUSE_REFLECTION, /* likewise total reflection */
+    CAUSE_UNKNOWN,    /* any of these where the scene's radiance has no bound: the pixel's says nothing */
     CAUSE_COUNT
 };
 

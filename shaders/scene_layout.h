@@ -129,6 +129,7 @@ struct EventHead {
 #define ETA_EXITING z    /* for one that exits it */
 #define KAPPA_EXITING w
 #define OREN_NAYAR_B x /* PackedSurface.more_parameters of matte */
+#define CURVATURE y    /* PackedSurface.more_parameters of giants: 1 / radius */
 #define SURFACE_KIND x /* PackedSurface.tags: KIND_ */
 #define FILE_ORDER                                                                                           \
     y /* of spheres and of planes' surfaces: place in the scene file, where each row of a file of            \
@@ -143,6 +144,7 @@ struct EventHead {
 #define SHARED_A x     /* PackedView.matte: Oren-Nayar's A and B, where all matte surfaces share them */
 #define SHARED_B y
 #define RADIANCE_BOUND x  /* PackedView.truncation: no ray brings more radiance than this */
+#define UNBOUNDED 1267650600228229401496703205376.0 /* 2^100 as RADIANCE_BOUND: a light touches a matte surface */
 #define ALLOWANCE y       /* what a sample may be charged for rays left out; negative: none is left out */
 #define FIRST_THRESHOLD z /* rays of smaller weight are left out at the first attempt; see NUMERICS.md */
 
@@ -152,6 +154,9 @@ struct PackedSurface {
     LAYOUT_IVEC4 tags;
 };
 
+/* A giant, which has a surface of its own, has instead the height of a point x over its surface,
+ * gradient . x + curvature / 2 |x|^2 - offset: the gradient in xyz, the offset in w. With centre c and radius
+ * r that is (|x - c|^2 - r^2) / (2 r), the distance from the surface for points near it. */
 struct PackedSphere {
     LAYOUT_VEC4 center_radius;
     LAYOUT_IVEC4 tags;

@@ -22,7 +22,8 @@ endfunction()
 add_cli_tests(usage no_command unknown_command unknown_option missing_argument value_like_an_option size numbers crop
               crop_outside option_of_another_command choices impossible_together several_scenes help_and_version
               manual_page completion)
-add_cli_tests(input missing_scene scene_by_name folder_as_scene bad_scene bad_scene_among_good_ones scene_that_is_warned_of)
+add_cli_tests(input missing_scene scene_by_name folder_as_scene bad_scene bad_scene_among_good_ones scene_that_is_warned_of
+              scene_beyond_float)
 add_cli_tests(spheres bad_files arrays)
 if(VKWHITTED_TESTS STREQUAL "all")
     add_cli_tests(spheres rows_as_objects names_of_rows coincident_20000 million_grains)
@@ -39,7 +40,7 @@ add_cli_tests(picture right wrong_formula wrong_pixel refusals)
 add_cli_tests(bench without_device bad_comparison options interrupted)
 add_cli_tests(pixel against json light_samples place)
 if(VKWHITTED_TESTS STREQUAL "all")
-    add_cli_tests(check worst_status)
+    add_cli_tests(check worst_status judged_behind_a_lens)
     add_cli_tests(package deb)
     add_cli_tests(bench report)
     add_cli_tests(pixel agreement samples max_bounces max_error options broken_k_r broken_shadow broken_normal broken_total broken_term broken_picture)

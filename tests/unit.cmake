@@ -17,6 +17,7 @@ add_unit_test(compare)
 add_unit_test(fit)
 add_unit_test(float_controls)
 add_unit_test(image)
+add_unit_test(judge)
 add_unit_test(many_spheres)
 target_link_options(unit_many_spheres PRIVATE -Wl,--wrap=calloc,--wrap=malloc) # to have them fail
 add_unit_test(npy)

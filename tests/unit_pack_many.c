@@ -141,7 +141,7 @@ static void order_and_surfaces(void **state)
     pack_destroy(&packed);
 }
 
-static void check_giants(float radius, float other, int expected)
+static void check_large(float radius, float other, int expected)
 {
     fill_rows(30, 0.25F);
     rows[3][3] = radius;
@@ -163,23 +163,23 @@ static void check_giants(float radius, float other, int expected)
     pack_destroy(&packed);
 }
 
-/* The spheres stand in a row from -0.25 to 29.25, so that one is a giant from a diameter of 14.75 on. */
-static void giants(void **state)
+/* The spheres stand in a row from -0.25 to 29.25, so that one is large from a diameter of 14.75 on. */
+static void large_spheres(void **state)
 {
     (void)state;
-    check_giants(0.25F, 0.25F, 0);
-    check_giants(7.3F, 0.25F, 0);
-    check_giants(7.4F, 0.25F, 1);
-    check_giants(1e5F, 0.25F, 1);
-    check_giants(1e5F, 1e6F, 2);
-    check_giants(7.4F, 7.5F, 2);
-    check_giants(1e5F, 7.3F, 1); /* it is no giant, and so part of the box: from -0.25 to 29.25 still */
+    check_large(0.25F, 0.25F, 0);
+    check_large(7.3F, 0.25F, 0);
+    check_large(7.4F, 0.25F, 1);
+    check_large(1e5F, 0.25F, 1);
+    check_large(1e5F, 1e6F, 2);
+    check_large(7.4F, 7.5F, 2);
+    check_large(1e5F, 7.3F, 1); /* it is not large, and so part of the box: from -0.25 to 29.25 still */
     fill_rows(30, 0.25F);
     for (size_t i = 0; i < 20; ++i) /* the first four are left to the hierarchy */
         rows[i][3] = 1e5F + (float)i;
     npy_write("rows.npy", 30, rows);
     struct packed_scene packed = pack(CLOUD, 0);
-    assert_int_equal(packed.looped_spheres, MOST_GIANTS);
+    assert_int_equal(packed.looped_spheres, MOST_LARGE);
     for (int i = 0; i < 30; ++i)
         assert_int_equal(packed.spheres[i].tags.FILE_ORDER, i < 16 ? i + 4 : i < 20 ? i - 16 : i);
     pack_destroy(&packed);
@@ -208,7 +208,7 @@ static double uniform(double from, double to)
     return from + (to - from) * drand48();
 }
 
-/* Small ones and large ones, now and then a giant; some touch one before from within or without. */
+/* Small ones and large ones, now and then a larger one; some touch one before from within or without. */
 static void scatter(float place[4], size_t before)
 {
     for (int c = 0; c < 3; ++c)
@@ -300,7 +300,8 @@ static void moved_camera(void **state)
             scene.camera.position[c] = (double)rows[seed][c] + (c == 2 && seed % 2 ? 30 : 0);
         assert_int_equal(pack_scene_beside(&first, &scene, &settings, &beside), STATUS_DONE);
         assert_int_equal(pack_scene(&scene, &settings, &anew), STATUS_DONE);
-        const bool same_scale = first.spheres[0].center_radius.w == anew.spheres[0].center_radius.w;
+        const int last = first.sphere_count - 1; /* is no giant */
+        const bool same_scale = first.spheres[last].center_radius.w == anew.spheres[last].center_radius.w;
         assert_true((beside.hierarchy == first.hierarchy) == same_scale);
         const size_t size = (size_t)anew.sphere_count * sizeof *anew.spheres;
         assert_memory_equal(beside.spheres, anew.spheres, size);
@@ -348,10 +349,10 @@ static void interrupted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(few_and_many), cmocka_unit_test(rows_as_objects),
-        cmocka_unit_test(moved_camera), cmocka_unit_test(order_and_surfaces),
-        cmocka_unit_test(giants),       cmocka_unit_test(tags_of_random_scenes),
-        cmocka_unit_test(escapes),      cmocka_unit_test(interrupted),
+        cmocka_unit_test(few_and_many),  cmocka_unit_test(rows_as_objects),
+        cmocka_unit_test(moved_camera),  cmocka_unit_test(order_and_surfaces),
+        cmocka_unit_test(large_spheres), cmocka_unit_test(tags_of_random_scenes),
+        cmocka_unit_test(escapes),       cmocka_unit_test(interrupted),
     };
     return cmocka_run_group_tests(tests, test_folder_setup, test_folder_teardown);
 }

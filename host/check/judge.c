@@ -48,7 +48,7 @@ enum status judge_picture(const struct image *image, const uint32_t *signatures,
         const struct pixel_error error = judge_pixel(image->rgb + 3 * i, exact);
         const bool same = signatures[i] == exact->signature;
         judgement->other_signature += !same;
-        if ((error.share_of_bound > 1 || (!same && exact->margin >= 1)) && judgement->unexplained++ == 0) {
+        if ((error.share_of_bound > 1 || (!same && !(exact->margin < 1))) && judgement->unexplained++ == 0) {
             judgement->unexplained_x = x;
             judgement->unexplained_y = y;
         }
@@ -75,21 +75,19 @@ enum status judge_picture(const struct image *image, const uint32_t *signatures,
     return judgement->unexplained ? STATUS_DIFFERS : STATUS_DONE;
 }
 
-static const char *const causes[CAUSE_COUNT] = {[CAUSE_ROUNDING] = "rounding",
-                                                [CAUSE_HIT] = "hit",
-                                                [CAUSE_SHADOW] = "shadow",
-                                                [CAUSE_REFLECTION] = "total_reflection"};
-
 void judgement_print(const struct judgement *judgement, const char *scene, const char *precision,
                      size_t allowed)
 {
-    printf("%s: against %s: relative error median %.2g, 99 %% %.2g, 99.99 %% %.2g, max %.2g @ (%u, %u); %zu "
-           "pixels with a bound of 1e-2 or less, at most %.2g of it",
+    static const char *const causes[CAUSE_COUNT] = {
+        [CAUSE_ROUNDING] = "rounding",           [CAUSE_HIT] = "hit or miss", [CAUSE_SHADOW] = "shadow",
+        [CAUSE_REFLECTION] = "total reflection", [CAUSE_UNKNOWN] = "unknown",
+    };
+    printf("%s: against %s: relative error median %.2g, 99 %% %.2g, 99.99 %% %.2g, max %.2g @ (%u, %u); "
+           "%zu pixels with a bound of 1e-2 or less, at most %.2g of it; wider by",
            scene, precision, judgement->median, judgement->percentile_99, judgement->percentile_99_99,
            judgement->max, judgement->max_x, judgement->max_y, judgement->tight, judgement->worst_share);
     for (int i = 0; i < CAUSE_COUNT; ++i)
-        if (judgement->wide[i] > 0)
-            printf(", %zu with a wider one by %s", judgement->wide[i], causes[i]);
+        printf("%s %s %zu", i > 0 ? "," : "", causes[i], judgement->wide[i]);
     printf("; %zu with another signature, %zu unexplained", judgement->other_signature,
            judgement->unexplained);
     if (judgement->unexplained > 0)
@@ -101,17 +99,19 @@ void judgement_print(const struct judgement *judgement, const char *scene, const
 json_t *judgement_json(const struct judgement *judgement, const char *scene, const char *precision,
                        size_t allowed)
 {
-    json_t *wide = json_object();
-    for (int i = 0; i < CAUSE_COUNT; ++i)
-        json_object_set_new(wide, causes[i], json_integer((json_int_t)judgement->wide[i]));
-    return json_pack("{s:s, s:s, s:b, s:{s:o, s:o, s:o, s:o}, s:o, s:I, s:o, s:I, s:I}", "scene", scene,
+    const size_t *wide = judgement->wide;
+    json_t *wide_pixels =
+        json_pack("{s:I, s:I, s:I, s:I, s:I}", "rounding", (json_int_t)wide[CAUSE_ROUNDING], "hit_or_miss",
+                  (json_int_t)wide[CAUSE_HIT], "shadow", (json_int_t)wide[CAUSE_SHADOW], "total_reflection",
+                  (json_int_t)wide[CAUSE_REFLECTION], "unknown", (json_int_t)wide[CAUSE_UNKNOWN]);
+    return json_pack("{s:s, s:s, s:b, s:{s:o, s:o, s:o, s:o}, s:I, s:o, s:o, s:I, s:I}", "scene", scene,
                      "against", precision, "explained", judgement->unexplained <= allowed, "relative_error",
                      "median", json_real_or_null(judgement->median), "percentile_99",
                      json_real_or_null(judgement->percentile_99), "percentile_99_99",
                      json_real_or_null(judgement->percentile_99_99), "max", json_real_or_null(judgement->max),
-                     "largest_share_of_bound", json_real_or_null(judgement->worst_share), "tight_pixels",
-                     (json_int_t)judgement->tight, "wide_pixels", wide, "other_signature_pixels",
-                     (json_int_t)judgement->other_signature, "unexplained_pixels",
+                     "tight_pixels", (json_int_t)judgement->tight, "largest_share_of_bound",
+                     json_real_or_null(judgement->worst_share), "wide_pixels", wide_pixels,
+                     "other_signature_pixels", (json_int_t)judgement->other_signature, "unexplained_pixels",
                      (json_int_t)judgement->unexplained);
 }
 

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/clock.h"
+#include "check/float_limit.h"
 #include "check/heatmap.h"
 #include "check/judge.h"
 #include "check/junit.h"
@@ -209,11 +210,13 @@ static enum status check_scene(struct check *check, const char *scene)
     enum status status = job_create(&check->options->job, scene, &job);
     if (status != STATUS_DONE)
         return status;
-    if (check->options->picture)
+    if (!check->options->picture)
+        status = float_limit_warn(&job);
+    if (status == STATUS_DONE && check->options->picture)
         status = check_file(check, scene, &job.plan);
-    else if (check->options->against == PRECISION_FLOAT)
+    else if (status == STATUS_DONE && check->options->against == PRECISION_FLOAT)
         status = check_by_reference(check, scene, &job.plan);
-    else
+    else if (status == STATUS_DONE)
         status = check_by_exact_picture(check, scene, &job.plan);
     job_destroy(&job);
     return status;

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/json.h"
+#include "check/float_limit.h"
 #include "check/spot_check.h"
 #include "tracer/job.h"
 
@@ -81,9 +82,10 @@ enum status command_render(const struct options *options)
     enum status status = job_create(&options->job, options->scenes[0], &job);
     if (status != STATUS_DONE)
         return status;
+    status = float_limit_warn(&job);
     job.plan.bound_truncation = options->job.has_max_error || writes_exr(options);
     double start = clock_ms();
-    if (options->backend == BACKEND_VULKAN)
+    if (status == STATUS_DONE && options->backend == BACKEND_VULKAN)
         status = vulkan_context_create(&options->vulkan, &context);
     double context_ms = context ? clock_ms() - start : 0;
     if (status == STATUS_DONE)

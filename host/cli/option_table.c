@@ -205,7 +205,7 @@ const struct option_entry option_table[] = {
 
     {"against", "", CHECK | PIXEL, CHOICE("double|quad", against, PRECISION_DOUBLE),
      "judge the float picture by a more precise one: errors, their\n"
-     "bounds, and what is beyond them without a close decision"},
+     "bounds, and pixels that are beyond them"},
 
     {"json", "", CHECK | PIXEL | BENCH, TEXT("FILE", json), "the result for machines"},
 

@@ -103,8 +103,8 @@ static struct query find_partners(const struct search *search, size_t number, si
     } else if (more && search->hierarchy.node_count > 0) {
         const layout_vec4 ball = enlarged(search, query.body);
         hierarchy_visit(&search->hierarchy,
-                        body_box((struct body){true, dvec3_of_vec4(ball), (double)ball.w}), compare_sphere,
-                        &query);
+                        body_box((struct body){true, dvec3_of_vec4(ball), (double)ball.w, false}),
+                        compare_sphere, &query);
     }
     return query;
 }

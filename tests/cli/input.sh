@@ -56,4 +56,27 @@ scene_that_is_warned_of() {
     done
 }
 
+scene_beyond_float() {
+    cat >planet.yaml <<'SCENE'
+camera: { position: [0, 6360002, -8], look_at: [0, 6360001, 0], fov_y: 40 }
+image: { width: 60, height: 40 }
+materials: [{ name: Soil, type: matte, color: [0.5, 0.4, 0.3] }]
+objects:
+  - { name: Ball, type: sphere, center: [0, 6360001, 0], radius: 1, material: Soil }
+  - { name: Planet, type: sphere, center: [0, 0, 0], radius: 6360000, material: Soil }
+lights: [{ type: point, position: [4, 6360008, -4], power: 200 }]
+SCENE
+    for command in 'render --backend cpu' check; do
+        expect 0 "$VKWHITTED" $command planet.yaml
+        said 'warning: planet.yaml:6:5: sphere "Planet": radius 6.36e\+06 m, seen from .* off by 1 % or more in [0-9]+ % .*--precision double'
+        [ "$(grep -c warning err)" = 1 ] || fail "not one warning from $command"
+    done
+    expect 0 "$VKWHITTED" render --backend cpu --precision double planet.yaml
+    not_said warning
+    for scene in "$SOURCE_DIR"/scenes/*.yaml "$SOURCE_DIR"/scenes/hard/*.yaml "$SOURCE_DIR/tests/scenes/earth.yaml"; do
+        expect 0 "$VKWHITTED" render --backend cpu --size 24x16 --max-bounces 3 --light-samples 4 "$scene"
+        not_said 'pixels looked at'
+    done
+}
+
 "$1"

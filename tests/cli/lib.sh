@@ -39,7 +39,7 @@ not_said() { ! grep -Eq -- "$1" "${2-err}" || fail "'$1' in ${2-err}"; }
 
 # Wrong formulas: a file of shaders/, what is right, and what stands there instead. Oren-Nayar's B term by one part in
 # 10000; Fresnel's k_r by a unit in the last place, everywhere or in the picture alone; total reflection too early; the
-# end of shadow rays; normals by a unit in the last place.
+# end of shadow rays; normals by a unit in the last place; k_r and normals by one part in 10000.
 declare -A formulas=(
     [term]='shade.glsl|(matte.a + matte.b * sin_tan)|(matte.a + matte.b * sin_tan * real(1.0001))'
     [k_r]='dielectric.glsl|return Refraction(total, reflectance,|return Refraction(total, intBitsToFloat(floatBitsToInt(reflectance) + 1),'
@@ -48,6 +48,8 @@ reflectance = intBitsToFloat(floatBitsToInt(reflectance) + 1);
 #endif
 return Refraction(total, reflectance,'
     [total]='dielectric.glsl|total = !(cos_out_squared > real(0))|total = !(cos_out_squared > real(0.9))'
+    [k_r_by_1e-4]='dielectric.glsl|return Refraction(total, reflectance,|return Refraction(total, reflectance * real(1.0001),'
+    [normal_by_1e-4]='intersect.glsl|facing_normal = hit.from_inside ? -normal : normal|facing_normal = (hit.from_inside ? -normal : normal) * real(1.0001)'
     [shadow]='intersect.glsl| && approach.along < distance|'
     [normal]='intersect.glsl|facing_normal = hit.from_inside ? -normal : normal|facing_normal = intBitsToFloat(floatBitsToInt(hit.from_inside ? -normal : normal) + 1)'
 )
