@@ -47,6 +47,20 @@ Vector vector_of(const layout_vec4 &v)
     return {v.x, v.y, v.z};
 }
 
+/* A giant is the sphere where gradient . x + curvature / 2 |x|^2 = offset. */
+Vector center_of(const Body &sphere)
+{
+    return sphere.curvature != 0 ? -1.0 / Ball(sphere.curvature) * sphere.vector : sphere.vector;
+}
+
+Ball squared_radius_of(const Body &sphere)
+{
+    if (sphere.curvature == 0)
+        return sphere.number * sphere.number;
+    const Vector center = center_of(sphere);
+    return dot(center, center) + 2.0 * sphere.number / sphere.curvature;
+}
+
 /* An opaque plane's normal points to the side where all rays stay, also those that start on it. */
 Distance meet_plane(const Ray &ray, const Body &plane)
 {
@@ -63,11 +77,11 @@ Distance meet_plane(const Ray &ray, const Body &plane)
 /* The roots of a t^2 + 2 b t + c, by the sign of c: 0 on the surface, below it inside. */
 Distance meet_sphere(const Ray &ray, const Body &sphere)
 {
-    const Vector from_center = ray.origin - sphere.vector;
+    const Vector from_center = ray.origin - center_of(sphere);
     const Ball a = dot(ray.direction, ray.direction), b = dot(from_center, ray.direction);
     if (ray.leaves == &sphere)
         return {ray.inward, -2.0 * b, a};
-    const Ball c = dot(from_center, from_center) - sphere.number * sphere.number;
+    const Ball c = dot(from_center, from_center) - squared_radius_of(sphere);
     const bool inside = negative(c), outside = !inside && positive(c);
     if (!inside && !negative(b))
         return {};
@@ -107,7 +121,7 @@ Hit nearest_hit(const Scene &scene, const Ray &ray)
     if (positive(t * t * dot(ray.direction, ray.direction) - farthest * farthest))
         return {};
     const Vector point = ray.origin + t * ray.direction;
-    const Vector normal = body->is_sphere ? unit(point - body->vector) : body->vector;
+    const Vector normal = body->is_sphere ? unit(point - center_of(*body)) : body->vector;
     const bool from_inside = positive(dot(normal, ray.direction));
     return {body, point, from_inside ? -1.0 * normal : normal, from_inside};
 }
@@ -122,8 +136,9 @@ bool blocks(const Body &body, const Hit &hit, const Vector &light)
         return negative((dot(body.vector, hit.point) - body.number) *
                         (dot(body.vector, light) - body.number));
     }
-    const Vector from_center = hit.point - body.vector, light_from_center = light - body.vector;
-    const Ball squared_radius = body.number * body.number;
+    const Vector center = center_of(body), from_center = hit.point - center,
+                 light_from_center = light - center;
+    const Ball squared_radius = squared_radius_of(body);
     const bool light_inside = negative(dot(light_from_center, light_from_center) - squared_radius);
     if (&body == hit.body)
         return hit.from_inside && !light_inside;
@@ -306,20 +321,23 @@ Oracle::Oracle(const packed_scene &packed) : scene(packed)
 {
     for (int i = 0; i < packed.sphere_count; ++i) {
         const PackedSphere &sphere = packed.spheres[i];
+        const PackedSurface &surface = packed.surfaces[sphere.tags.SURFACE];
+        const bool giant = i < 32 && (packed.giants >> i & 1) != 0;
         bodies.push_back({true, vector_of(sphere.center_radius), sphere.center_radius.w,
-                          &packed.surfaces[sphere.tags.SURFACE], sphere.tags.FILE_ORDER, true});
+                          giant ? surface.more_parameters.CURVATURE : 0, &surface, sphere.tags.FILE_ORDER,
+                          true});
     }
     for (int i = 0; i < packed.plane_count; ++i) {
         const PackedPlane &plane = packed.planes[i];
-        bodies.push_back({false, vector_of(plane.normal_offset), plane.normal_offset.w, &plane.surface,
+        bodies.push_back({false, vector_of(plane.normal_offset), plane.normal_offset.w, 0, &plane.surface,
                           plane.surface.tags.FILE_ORDER, plane.surface.tags.CASTS_SHADOWS != 0});
     }
     std::sort(bodies.begin(), bodies.end(),
               [](const OracleBody &a, const OracleBody &b) { return a.order < b.order; });
-    std::set<std::tuple<bool, double, double, double, double>> places;
+    std::set<std::tuple<bool, double, double, double, double, double>> places;
     auto hidden = [&places](const OracleBody &body) {
         const double x = body.vector.x.middle(), y = body.vector.y.middle(), z = body.vector.z.middle();
-        return !places.insert({body.is_sphere, x, y, z, body.number.middle()}).second;
+        return !places.insert({body.is_sphere, x, y, z, body.number.middle(), body.curvature}).second;
     };
     bodies.erase(std::remove_if(bodies.begin(), bodies.end(), hidden), bodies.end());
 }

@@ -15,8 +15,9 @@ extern "C" {
 
 struct OracleBody {
     bool is_sphere;
-    Vector vector; /* a sphere's centre, a plane's normal */
-    Ball number;   /* its radius, its offset */
+    Vector vector;    /* a sphere's centre, a giant's gradient, a plane's normal */
+    Ball number;      /* its radius, its offset */
+    double curvature; /* of a giant, otherwise 0 */
     const PackedSurface *surface;
     int order; /* in the scene file */
     bool casts_shadows;
