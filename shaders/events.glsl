@@ -13,7 +13,7 @@ struct Event {
 
 // More events than there is room for are counted and not written.
 layout(std430, set = 0, binding = 12) buffer EventBlock {
-    uint event_count, event_room, event_first, event_unused; // event_first: of the sample
+    uint event_count, event_room, event_unused[2];
     Event events[];
 };
 
@@ -42,14 +42,6 @@ void emit(int kind, ivec4 facts, real3 first, real3 second, real third)
     if (starts && gl_GlobalInvocationID == uvec3(0)) \
         event_count = 0u;
 #define records(in_tile) records_pixel = in_tile == uvec2(0)
-
-// Those of an attempt at the sample that failed are dropped.
-#define begin_sample_events() \
-    if (records_pixel) \
-        event_first = event_count;
-#define begin_attempt_events() \
-    if (records_pixel) \
-        event_count = event_first;
 
 #define emit_ray(when, sample_index, path)                                                                 \
     if (when) {                                                                                                   \
@@ -96,8 +88,6 @@ const bool RECORDS = false;
 const int NO_QUAD_LIGHTS = 0;
 #define begin_events(starts)
 #define records(in_tile)
-#define begin_sample_events()
-#define begin_attempt_events()
 #define emit_ray(when, sample_index, path)
 #define emit_hit(when, hit, point, normal)
 #define emit_split(cos_in, refraction)
