@@ -11,12 +11,13 @@
 #include "check/heatmap.h"
 #include "check/judge.h"
 #include "check/junit.h"
+#include "check/verdict.h"
 #include "tracer/job.h"
 
 /* The command's state: results gets a JSON object for each scene, junit a test case. */
 struct check {
     const struct options *options;
-    struct vulkan_context *context; /* NULL with --backend cpu */
+    struct vulkan_context *context; /* NULL with --backend cpu and --picture */
     json_t *results;
     struct junit junit;
     char reason[256 + PATH_MAX]; /* why the last scene failed that did */
@@ -143,14 +144,74 @@ static enum status check_by_exact_picture(struct check *check, const char *scene
     return status;
 }
 
+/* Where the picture's largest error is, as it is shown by the command that shows why. */
+static void print_command(const struct options *options, const char *scene, const struct verdicts *verdicts)
+{
+    const struct window *crop = &options->job.plan.window;
+    log_notice("see 'vkwhitted pixel %s %u %u --against %s', and the options of this picture", scene,
+               verdicts->x + crop->x, verdicts->y + crop->y, precision_name(options->against));
+}
+
+static enum status report_picture(struct check *check, const char *scene, const struct read_image *picture,
+                                  const struct reference_explanation *explanations)
+{
+    const struct options *options = check->options;
+    const char *precision = precision_name(options->against);
+    struct verdicts verdicts;
+    enum status status = verdicts_find(picture, explanations, &options->tolerance, &verdicts);
+    verdicts_print(&verdicts, scene, options->picture, precision, options->allow);
+    if (status == STATUS_DIFFERS)
+        print_command(options, scene, &verdicts);
+    status = verdicts_wrong(&verdicts) <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
+    if (options->json)
+        status = status_worse(
+            status, add_result(check, scene,
+                               verdicts_json(&verdicts, scene, options->picture, precision, options->allow)));
+    snprintf(check->reason, sizeof check->reason,
+             "%zu pixels of %s wrong, the largest error %.3g at (%u, %u)", verdicts_wrong(&verdicts),
+             options->picture, verdicts.error, verdicts.x, verdicts.y);
+    char path[PATH_MAX];
+    const char *heatmap = heatmap_path(options, scene, status, path);
+    name_heatmap(check, heatmap);
+    return heatmap
+               ? status_worse(status, verdicts_heatmap(picture, explanations, &options->tolerance, heatmap))
+               : status;
+}
+
+/* Judges a file's picture by the exact one. */
+static enum status check_file(struct check *check, const char *scene, const struct render_plan *plan)
+{
+    const struct options *options = check->options;
+    struct read_image picture;
+    struct reference_explanation *explanations = NULL;
+    enum status status =
+        image_read(options->picture, &(struct image_wanted){plan->window, options->transfer}, &picture);
+    if (status != STATUS_DONE)
+        return status;
+    if (plan->scene->quad_light_count > 0 && !options->has_tolerance)
+        log_warning(
+            "%s: a quad light is estimated with points of this program's choice; a picture that has others "
+            "differs by their noise, see --light-samples and --tolerance",
+            scene);
+    status = explain_on_cpu(plan, options->against, &explanations);
+    if (status == STATUS_DONE)
+        status = report_picture(check, scene, &picture, explanations);
+    free(explanations);
+    read_image_destroy(&picture);
+    return status;
+}
+
 static enum status check_scene(struct check *check, const char *scene)
 {
     struct job job;
     enum status status = job_create(&check->options->job, scene, &job);
     if (status != STATUS_DONE)
         return status;
-    status = float_limit_warn(&job);
-    if (status == STATUS_DONE && check->options->against == PRECISION_FLOAT)
+    if (!check->options->picture)
+        status = float_limit_warn(&job);
+    if (status == STATUS_DONE && check->options->picture)
+        status = check_file(check, scene, &job.plan);
+    else if (status == STATUS_DONE && check->options->against == PRECISION_FLOAT)
         status = check_by_reference(check, scene, &job.plan);
     else if (status == STATUS_DONE)
         status = check_by_exact_picture(check, scene, &job.plan);
@@ -166,7 +227,7 @@ enum status command_check(const struct options *options)
         log_error("%s: cannot make the folder: %s", options->heatmap, strerror(errno));
         return STATUS_UNABLE;
     }
-    if (options->backend == BACKEND_VULKAN)
+    if (options->backend == BACKEND_VULKAN && !options->picture)
         status = vulkan_context_create(&options->vulkan, &check.context);
     if (status != STATUS_DONE)
         return status;

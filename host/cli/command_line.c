@@ -139,6 +139,13 @@ static enum status check_consistency(const struct options *options)
         {command == COMMAND_PIXEL && precision == PRECISION_QUAD,
          "pixel computes in float or double; see --against"},
         {command == COMMAND_PIXEL && scenes != 3, "pixel takes a scene file, a column and a row"},
+        {command == COMMAND_CHECK && options->transfer != TRANSFER_SRGB && !options->picture,
+         "--transfer is for the .png of --picture"},
+        {options->picture && scenes > 1, "--picture takes one scene file"},
+        {options->picture &&
+             (cpu || options->vulkan.device || options->vulkan.validate || options->job.plan.fast ||
+              precision != PRECISION_FLOAT || options->job.has_max_error || options->shaders.path),
+         "--picture goes with no device, backend or precision: the exact picture is computed on the CPU"},
         {precision == PRECISION_QUAD && !cpu, "--precision quad needs --backend cpu"},
         {precision != PRECISION_FLOAT && (options->job.plan.fast || against),
          "--fast and --against go with --precision float"},
@@ -146,7 +153,7 @@ static enum status check_consistency(const struct options *options)
         {cpu && (options->vulkan.device || options->vulkan.validate || options->shaders.path),
          "--device, --shaders and --validate do not go with --backend cpu"},
         {cpu && command == COMMAND_CHECK && !against, "check --backend cpu needs --against double or quad"},
-        {against && options->has_tolerance,
+        {against && options->has_tolerance && !options->picture,
          "--tolerance does not go with --against, which derives a bound for every pixel"},
         {against && options->job.has_max_error,
          "--max-error does not go with --against, which judges rounding alone"},
@@ -255,6 +262,8 @@ enum status command_line_read(int argc, char **argv, struct options *options)
     if (options->command == COMMAND_WATCH && options->output_count == 0)
         options->window = options->window || getenv("DISPLAY") || getenv("WAYLAND_DISPLAY");
     status = check_consistency(options);
+    if (options->picture && options->against == PRECISION_FLOAT)
+        options->against = PRECISION_DOUBLE;
     if (status == STATUS_DONE && options->command == COMMAND_PIXEL)
         status = read_place(options);
     if (status == STATUS_DONE)

@@ -193,7 +193,7 @@ const struct option_entry option_table[] = {
 
     {"", "o", RENDER | JOIN | WATCH, OTHER("FILE", read_output),
      "write the picture; may be given several times"},
-    {"transfer", "", RENDER | JOIN | WATCH, CHOICE("srgb|linear", transfer, TRANSFER_SRGB),
+    {"transfer", "", RENDER | JOIN | WATCH | CHECK, CHOICE("srgb|linear", transfer, TRANSFER_SRGB),
      "of 8-bit files (default srgb)"},
 
     {"tile", "", RENDER, OTHER("I/N", read_tile),
@@ -210,6 +210,9 @@ const struct option_entry option_table[] = {
     {"heatmap", "", CHECK, OUTPUT("FILE.png", heatmap),
      "where they differ, as a picture; DIR/: one for each scene\n"
      "that differs, in that folder"},
+    {"picture", "", CHECK, INPUT("FILE", picture),
+     "judge this picture (.exr, .pfm, .png) by any other program\n"
+     "instead of one's own (default --against double)"},
     {"junit", "", CHECK, OUTPUT("FILE.xml", junit), "the result for CI, a test case a scene"},
 
     {"against", "", CHECK | PIXEL, CHOICE("double|quad", against, PRECISION_DOUBLE),

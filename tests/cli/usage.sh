@@ -74,7 +74,7 @@ crop_outside() {
 
 option_of_another_command() {
     refused 2 'check takes no option -o' check -o a.png "$figure"
-    refused 2 'check takes no option --transfer' check --transfer srgb "$figure"
+    refused 2 'pixel takes no option --transfer' pixel --transfer srgb "$figure"
     refused 2 'check takes no option --stats' check --stats a.json "$figure"
     refused 2 'render takes no option --tolerance' render --tolerance 1 "$figure"
     refused 2 'watch takes no option --backend' watch --backend cpu -o a.png "$figure"
