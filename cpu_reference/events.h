@@ -95,8 +95,6 @@ static inline int find_blocker(const struct packed_scene *scene, const struct se
 
 #define RECORD(kind, facts, first, second, third) record(kind, facts, first, second, third)
 #define RECORD_BOUNDS(known, first, second, third, margin) record_bounds(known, first, second, third, margin)
-#define RECORD_ATTEMPT() event_log->first = event_log->count
-#define RECORD_ANOTHER_ATTEMPT() event_log->count = event_log->first
 #define RECORD_RAY(sample, path)                                                                             \
     record_ray(sample, &(path)->ray, (real)(path)->weight, (path)->bounces, (path)->branch)
 #define RECORD_HIT(hit)                                                                                      \
@@ -139,8 +137,6 @@ static inline int find_blocker(const struct packed_scene *scene, const struct se
 
 #define RECORD(kind, facts, first, second, third)
 #define RECORD_BOUNDS(known, first, second, third, margin)
-#define RECORD_ATTEMPT()
-#define RECORD_ANOTHER_ATTEMPT()
 #define RECORD_RAY(sample, path)
 #define RECORD_HIT(hit)
 #define RECORD_SPLIT(cos_in, refraction)

@@ -1,7 +1,7 @@
 /* The reference at high precision, with a running error analysis of what the float tracer does: for each
  * pixel the radiance, the path signature, how far the nearest decision is from going the other way in float,
- * and a bound on float's error. Built at double and binary128 with the entry's
- * name REFERENCE_EXPLAIN, or REFERENCE_RECORD for the one that tells what it does. */
+ * and a bound on float's error. Built at double and binary128 with the entry's name REFERENCE_EXPLAIN, or
+ * REFERENCE_RECORD for the one that tells what it does. */
 #include "camera.h"
 #include "events.h"
 #include "light_margin.h"
@@ -21,8 +21,8 @@ struct tracked_path {
     struct ray ray;
     struct ray_errors error;
     double weight, e_weight;
-    bool followed; /* as long as float decides as here; then errors mean nothing, and the pixel's error has
-                    * all that the path may bring */
+    bool followed; /* float has decided as here on the way. Where it may not have, the errors mean nothing, and
+                    * the pixel's has all that the path may bring. */
     int bounces;
     uint32_t branch; /* of the ray tree, as in tracer.c */
 };

@@ -17,7 +17,6 @@ struct reference_event {
 struct reference_log {
     struct reference_event *events;
     size_t room, count;
-    size_t first; /* of the current sample; those of an attempt that failed are dropped */
 };
 
 /* Traces the pixel as the functions of reference.h do, and appends what happens to the log. */

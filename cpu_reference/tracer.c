@@ -16,9 +16,8 @@ struct sample {
     const struct packed_scene *scene;
     uint32_t seed, index;
     struct vec3 radiance, rounding; /* the rounded sum, and what rounding took from it */
-    real threshold;                 /* rays of smaller weight are left out */
-    real charge;                    /* for rays that were not traced, see ROUND_UP */
-    real cut_off;                   /* what of that is for rays that max_bounces cut off */
+    real charge;                    /* the weight of rays that were not traced, see ROUND_UP */
+    real waiting;                   /* the roots of the weights of rays that are put off, summed */
     struct tally tally;
 };
 
@@ -38,18 +37,39 @@ static void trace_secondary(struct sample *sample, const struct path *path)
     trace(sample, path);
 }
 
-/* Adds the most that a ray of this weight could have brought, rounded up. */
-static real charge(real charges, const struct sample *sample, real weight)
+static void charge(struct sample *sample, real weight)
 {
-    return (charges + weight * (real)sample->scene->view.truncation.RADIANCE_BOUND) * (real)ROUND_UP;
+    sample->charge = (sample->charge + weight) * (real)ROUND_UP;
 }
 
-/* Whether a ray of this weight is to be traced; where it is not, the sample has been charged for it. */
-static bool is_traced(struct sample *sample, real weight)
+static real root_of(real weight)
 {
-    if (weight > (real)SMALLEST_WEIGHT && weight >= sample->threshold)
+    return weight > (real)SMALLEST_WEIGHT ? square_root(weight) : 0;
+}
+
+/* Whether a ray of this weight may be left out, where the roots of all rays still to be traced, this one
+ * included, come to `open`; see NUMERICS.md. Where max_bounces alone has cut off too much, rays are left out
+ * as at the beginning. */
+static bool may_be_left_out(const struct sample *sample, real weight, real open)
+{
+    const layout_vec4 *truncation = &sample->scene->view.truncation;
+    real allowance = (real)truncation->ALLOWANCE, room = allowance;
+    if (allowance < 0)
+        return false;
+    if (sample->charge <= allowance) {
+        if ((sample->charge + weight) * (real)ROUND_UP > allowance)
+            return false;
+        room = allowance - sample->charge;
+    }
+    return root_of(weight) * open * open <= room * (room * (real)truncation->SPENDING);
+}
+
+/* Whether the ray is to be traced; where it is not, the sample has been charged for it. */
+static bool is_traced(struct sample *sample, real weight, real open)
+{
+    if (weight > (real)SMALLEST_WEIGHT && !may_be_left_out(sample, weight, open))
         return true;
-    sample->charge = charge(sample->charge, sample, weight);
+    charge(sample, weight);
     return false;
 }
 
@@ -93,12 +113,18 @@ static void trace_dielectric(struct sample *sample, const struct path *path, con
     refracted.branch = 2 * path->branch + 1;
     reflected.weight = path->weight * refraction.reflectance;
     reflected.branch = 2 * path->branch + 2;
-    bool reflects = is_traced(sample, reflected.weight);
-    bool refracts = is_traced(sample, refracted.weight);
+    real open = sample->waiting + root_of(reflected.weight) + root_of(refracted.weight);
+    bool reflects = is_traced(sample, reflected.weight, open);
+    bool refracts = is_traced(sample, refracted.weight, open);
     RECORD_UNTRACED(!reflects, UNTRACED_REFLECTED, reflected.weight, 0, sample->charge);
     RECORD_UNTRACED(!refracts, UNTRACED_REFRACTED, refracted.weight, 0, sample->charge);
-    if (refracts)
+    if (refracts && reflects) {
+        sample->waiting += root_of(reflected.weight);
         trace_secondary(sample, &refracted);
+        sample->waiting -= root_of(reflected.weight);
+    } else if (refracts) {
+        trace_secondary(sample, &refracted);
+    }
     if (reflects)
         trace_secondary(sample, &reflected);
 }
@@ -124,8 +150,7 @@ static void trace(struct sample *sample, const struct path *path)
         return;
     }
     if (path->bounces == scene->max_bounces) {
-        sample->charge = charge(sample->charge, sample, path->weight);
-        sample->cut_off = charge(sample->cut_off, sample, path->weight);
+        charge(sample, path->weight);
         RECORD_UNTRACED(true, UNTRACED_BOUNCES, path->weight, 0, sample->charge);
         return;
     }
@@ -147,40 +172,6 @@ static void trace(struct sample *sample, const struct path *path)
         trace_secondary(sample, &reflected);
 }
 
-/* Whether the finished sample has left out more than it may, and a lower threshold can help. */
-static bool needs_another_attempt(const struct sample *sample)
-{
-    real allowance = (real)sample->scene->view.truncation.ALLOWANCE;
-    return sample->threshold > 0 && sample->charge > allowance && sample->cut_off <= allowance;
-}
-
-/* What is left out falls about as the root of the threshold where rays multiply, and with it where they do
- * not. */
-static real next_threshold(const struct sample *sample)
-{
-    real allowance = (real)sample->scene->view.truncation.ALLOWANCE;
-    real ratio = (allowance - sample->cut_off) / (sample->charge - sample->cut_off);
-    real threshold = sample->threshold * ratio * ratio * (real)0.25;
-    return threshold > (real)SMALLEST_WEIGHT ? threshold : 0;
-}
-
-/* Traces the sample's tree, again with a lower threshold until what is left out fits the allowance. A primary
- * ray that is traced again counts as a secondary one. */
-static void trace_sample(struct sample *sample, const struct path *path)
-{
-    sample->threshold = (real)sample->scene->view.truncation.FIRST_THRESHOLD;
-    ++sample->tally.rays.primary;
-    RECORD_ATTEMPT();
-    trace(sample, path);
-    while (needs_another_attempt(sample)) {
-        sample->threshold = next_threshold(sample);
-        sample->radiance = sample->rounding = (struct vec3){0, 0, 0};
-        sample->charge = sample->cut_off = 0;
-        RECORD_ANOTHER_ATTEMPT();
-        trace_secondary(sample, path);
-    }
-}
-
 struct pixel {
     struct vec3 radiance;
     real charges; /* summed over the samples */
@@ -198,7 +189,8 @@ static struct pixel trace_pixel(const struct packed_scene *scene, int x, int y)
             .tally = pixel.tally,
         };
         struct path path = {.ray = camera_ray(scene, x, y, k), .weight = 1};
-        trace_sample(&sample, &path);
+        ++sample.tally.rays.primary;
+        trace(&sample, &path);
         struct vec3 radiance = add(sample.radiance, sample.rounding);
         RECORD(EVENT_SAMPLE, (layout_ivec4){0}, radiance, (struct vec3){0}, sample.charge);
         pixel.radiance = add(pixel.radiance, radiance);

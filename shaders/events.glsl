@@ -13,7 +13,7 @@ struct Event {
 
 // More events than there is room for are counted and not written.
 layout(std430, set = 0, binding = 12) buffer EventBlock {
-    uint event_count, event_room, event_first, event_unused; // event_first: of the sample
+    uint event_count, event_room, event_unused[2];
     Event events[];
 };
 
@@ -43,20 +43,12 @@ void emit(int kind, ivec4 facts, real3 first, real3 second, real third)
         event_count = 0u;
 #define records(in_tile) records_pixel = in_tile == uvec2(0)
 
-// Those of an attempt at the sample that failed are dropped.
-#define begin_sample_events() \
-    if (records_pixel) \
-        event_first = event_count;
-#define begin_attempt_events() \
-    if (records_pixel) \
-        event_count = event_first;
-
-// A dispatch that takes up a ray where another left it knows its place, too.
 #define emit_ray(when, sample_index, path)                                                                 \
-    event_place = ivec4(0, sample_index, path.branch, path.bounces);                                       \
-    if (when)                                                                                              \
+    if (when) {                                                                                                   \
+        event_place = ivec4(0, sample_index, path.branch, path.bounces);                                   \
         emit(EVENT_RAY, ivec4(path.ray.surface, path.ray.inward, 0, 0), path.ray.origin,                   \
-             path.ray.direction, path.weight);
+             path.ray.direction, path.weight);                                                             \
+    }
 #define emit_hit(when, hit, point, normal)                                                                 \
     if (when) {                                                                                                    \
         bool met = hit.surface >= 0;                                                                       \
@@ -96,8 +88,6 @@ const bool RECORDS = false;
 const int NO_QUAD_LIGHTS = 0;
 #define begin_events(starts)
 #define records(in_tile)
-#define begin_sample_events()
-#define begin_attempt_events()
 #define emit_ray(when, sample_index, path)
 #define emit_hit(when, hit, point, normal)
 #define emit_split(cos_in, refraction)

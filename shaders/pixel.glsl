@@ -10,28 +10,44 @@ const bool CHARGED = CHARGES || PRUNES || RECORDS;
 struct Pixel {
     real3 radiance; // sum over the samples
     real3 leaves, rounding; // of the sample: the rounded sum of what its rays see, and what rounding took from it
-    real threshold; // of the sample: rays of smaller weight are left out
-    real charge; // of the sample, for rays that are not traced, see ROUND_UP
-    real cut_off; // what of that is for rays that MAX_BOUNCES cut off
+    real charge; // of the sample: the weight of rays that are not traced, see ROUND_UP
+    real waiting; // roots of the weights on the stack, summed
     real charges; // of the samples before
     uint seed;
     uint sample_index;
     Tally tally;
 };
 
-// Adds the most that a ray of this weight could have brought, rounded up.
+// Charges, rounded up, and a ray of this weight.
 real charge(real charges, real weight)
 {
-    exact real sum = (charges + weight * real(hoisted_view.truncation.RADIANCE_BOUND)) * real(ROUND_UP);
+    exact real sum = (charges + weight) * real(ROUND_UP);
     return sum;
 }
 
-// Whether a ray of this weight is to be traced; where it is not, the sample has been charged for it.
-bool is_traced(inout Pixel pixel, real weight)
+// What stands for a ray's share in what will be left out; see NUMERICS.md.
+real root_of(real weight)
 {
-    bool traced = weight > real(SMALLEST_WEIGHT) && !(PRUNES && weight < pixel.threshold);
+    real root = real(0);
+    if (PRUNES)
+        root = square_root(weight);
+    return weight > real(SMALLEST_WEIGHT) ? root : real(0);
+}
+
+// Whether a ray of this weight and root is to be traced, of the rays that are still to be traced, whose roots come to
+// `open`; where it is not, the sample has been charged for it.
+bool is_traced(inout Pixel pixel, real weight, real root, real open)
+{
+    real allowance = real(hoisted_view.truncation.ALLOWANCE);
+    bool exceeded = pixel.charge > allowance;
+    real charged = charge(pixel.charge, weight);
+    exact real room = exceeded ? allowance : allowance - pixel.charge;
+    exact real spent = root * open * open;
+    exact real to_spend = room * (room * real(hoisted_view.truncation.SPENDING));
+    bool left_out = PRUNES && (exceeded || charged <= allowance) && spent <= to_spend;
+    bool traced = weight > real(SMALLEST_WEIGHT) && !left_out;
     if (CHARGED)
-        pixel.charge = traced ? pixel.charge : charge(pixel.charge, weight);
+        pixel.charge = traced ? pixel.charge : charged;
     return traced;
 }
 
@@ -51,19 +67,12 @@ void add_leaf(inout Pixel pixel, real3 leaf)
     pixel.rounding = rounding;
 }
 
-void begin_attempt(inout Pixel pixel, real threshold)
+void begin_sample(inout Pixel pixel)
 {
-    pixel.threshold = threshold;
     pixel.leaves = real3(0);
     pixel.rounding = real3(0);
     pixel.charge = real(0);
-    pixel.cut_off = real(0);
-}
-
-void begin_sample(inout Pixel pixel)
-{
-    begin_attempt(pixel, PRUNES ? real(hoisted_view.truncation.FIRST_THRESHOLD) : real(0));
-    begin_sample_events();
+    pixel.waiting = real(0);
 }
 
 uint pixel_seed(uvec2 position)
@@ -89,33 +98,9 @@ void begin_pixel(out Pixel pixel, uvec2 position, uint place)
     begin_sample(pixel);
 }
 
-// Whether the finished sample has left out more than it may, and a lower threshold can help.
-bool needs_another_attempt(Pixel pixel)
-{
-    real allowance = real(hoisted_view.truncation.ALLOWANCE);
-    return PRUNES && pixel.threshold > real(0) && pixel.charge > allowance && pixel.cut_off <= allowance;
-}
-
-// What is left out falls about as the root of the threshold where rays multiply, and with it where they do not.
-real next_threshold(Pixel pixel)
-{
-    exact real fits = real(hoisted_view.truncation.ALLOWANCE) - pixel.cut_off;
-    exact real left_out = pixel.charge - pixel.cut_off;
-    exact real ratio = divide(fits, left_out);
-    exact real threshold = pixel.threshold * ratio * ratio * real(0.25);
-    return threshold > real(SMALLEST_WEIGHT) ? threshold : real(0);
-}
-
-// Adds the sample whose ray tree has been traced to the pixel, or begins it again with a lower threshold. Whether the
-// pixel has no samples left.
+// Adds the sample whose ray tree has been traced to the pixel. Whether the pixel has no samples left.
 bool end_sample(inout Pixel pixel)
 {
-    if (PRUNES && needs_another_attempt(pixel)) {
-        begin_attempt(pixel, next_threshold(pixel));
-        begin_attempt_events();
-        ++pixel.tally.secondary_rays;
-        return false;
-    }
     exact real3 sample_radiance = pixel.leaves + pixel.rounding;
     exact real3 radiance = pixel.radiance + sample_radiance;
     exact real charges = (pixel.charges + pixel.charge) * real(ROUND_UP);

@@ -1,5 +1,5 @@
-// What a dispatch leaves when it has used up its turns: the invocation's state, with which the next one goes on.
-// Its path lies on top of the stack.
+// What a dispatch leaves when it has used up its turns: the invocation's state, with which the next one goes on, and its
+// stack, with its path on top.
 
 layout(std430, set = 0, binding = 11) buffer Outcome { uint unfinished; }; // pixels
 
@@ -7,13 +7,19 @@ Work no_work()
 {
     const real3 zero = real3(0);
     Path path = Path(Ray(zero, zero, -1, false), real(0), 0, 0u);
-    Pixel pixel = Pixel(zero, zero, zero, real(0), real(0), real(0), real(0), 0u, 0u, Tally(0u, 0u, 0u));
-    return Work(0u, 0u, false, false, 0, path, pixel, Lighting(0u, zero, real(0)));
+    Pixel pixel = Pixel(zero, zero, zero, real(0), real(0), real(0), 0u, 0u, Tally(0u, 0u, 0u));
+    return Work(0u, 0u, false, false, 0, 0, path, pixel, Lighting(0u, zero, real(0)));
 }
 
 bool is_done(Work work)
 {
     return !work.busy && work.later == 0u;
+}
+
+// Whether a turn could find the stack's registers full, or empty although it goes on in memory.
+bool waits_for_stack(Work work)
+{
+    return STACK_IS_DEEP && (work.pending == STACK_ROOM || work.pending == 0 && work.saved > 0);
 }
 
 void exchange(bool saves, int slot, inout real3 xyz, inout real w)
@@ -41,16 +47,14 @@ void exchange(bool saves, inout Work work)
     if (GLASS || CHARGED)
         exchange(saves, 0, work.pixel.leaves, work.pixel.charge);
     if (GLASS || PRUNES)
-        exchange(saves, 1, work.pixel.rounding, work.pixel.cut_off);
+        exchange(saves, 1, work.pixel.rounding, work.pixel.waiting);
     if (SAMPLES > 1)
         exchange(saves, 2, work.pixel.radiance, work.pixel.charges);
     if (LIGHTS_TAKE_TURNS)
         exchange(saves, 3, work.light.sum, work.light.quad_sum);
     real3 unused = real3(0);
-    if (PRUNES)
-        exchange(saves, 4, unused, work.pixel.threshold);
     if (HIERARCHY)
-        exchange(saves, 5, unused, search.distance);
+        exchange(saves, 4, unused, search.distance);
     if (SAMPLES > 1)
         exchange(saves, 2, work.pixel.sample_index);
     if (LIGHTS_TAKE_TURNS)
@@ -75,14 +79,18 @@ void exchange(bool saves, inout Work work)
 
 void save(Work work)
 {
-    bool done = is_done(work);
-    if (!done)
-        push(work.path, work.pending);
+    uint below = uint(work.saved + work.pending);
     saved_words[saved_place(0)] = work.later;
-    saved_words[saved_place(1)] = uint(work.pending) << 7 | work.row << 2 | uint(work.fresh) << 1 | uint(work.busy);
-    if (done)
+    saved_words[saved_place(1)] = below << 7 | work.row << 2 | uint(work.fresh) << 1 | uint(work.busy);
+    if (is_done(work))
         return;
     atomicAdd(unfinished, uint(bitCount(work.later)) + uint(work.busy));
+    save_path(work.saved + work.pending, work.path);
+    for (int i = 0; i < STACK_ROOM && GLASS; ++i)
+        if (work.pending > 0) {
+            pop(work.path, work.pending);
+            save_path(work.saved + work.pending, work.path);
+        }
     exchange(true, work);
 }
 
@@ -90,13 +98,19 @@ void load(inout Work work, uint first_row)
 {
     uint place = saved_words[saved_place(1)];
     work.later = saved_words[saved_place(0)];
-    work.pending = int(place >> 7);
+    int below = int(place >> 7);
     work.row = place >> 2 & 31u;
     work.fresh = (place & 2u) != 0u;
     work.busy = (place & 1u) != 0u;
     if (is_done(work))
         return;
     exchange(false, work);
-    pop(work.path, work.pending);
+    work.saved = STACK_IS_DEEP ? max(below - STACK_ROOM / 2, 0) : 0;
+    for (int i = 0; i < STACK_ROOM && GLASS; ++i)
+        if (work.saved + i < below) {
+            load_path(work.saved + i, work.path);
+            push(work.path, work.pending);
+        }
+    load_path(below, work.path);
     work.pixel.seed = pixel_seed(tile_origin + uvec2(gl_GlobalInvocationID.x, first_row + work.row));
 }

@@ -66,15 +66,15 @@ typedef struct PackedSurface PackedSurface;
 
 /* The slots of vectors and of words in which an invocation keeps its work between dispatches; behind them is
  * its stack. */
-#define WORK_REALS 6
+#define WORK_REALS 5
 #define WORK_WORDS 11
 
 /* What the direction of a ray, and its line projected along the normal of the parallel mirrors that reflect
  * it, may be off by after 1000 bounces, relative: a bounce loses less than 2^-20. */
 #define MIRROR_DRIFT 0.0009765625 /* 2^-10 */
 
-/* The charge for a ray that is not traced is the most that it could have brought: its weight, which is its
- * share in the pixel, times the bound on radiance. Charges are summed to nearest; this factor after each
+/* The charge for a ray that is not traced is its weight, which is its share in the pixel: times the bound on
+ * radiance the most that it could have brought. Charges are summed to nearest; this factor after each
  * addition makes the sum one that is rounded up. */
 #define ROUND_UP 1.0000002384185791015625 /* 1 + 2^-22 */
 
@@ -143,10 +143,10 @@ struct EventHead {
 #define HOLDS_LIGHTS w /* of spheres: so may a point of a light */
 #define SHARED_A x     /* PackedView.matte: Oren-Nayar's A and B, where all matte surfaces share them */
 #define SHARED_B y
-#define RADIANCE_BOUND x  /* PackedView.truncation: no ray brings more radiance than this */
+#define RADIANCE_BOUND x /* PackedView.truncation: no ray brings more radiance than this */
 #define UNBOUNDED 1267650600228229401496703205376.0 /* 2^100 as RADIANCE_BOUND: a light touches a matte surface */
-#define ALLOWANCE y       /* what a sample may be charged for rays left out; negative: none is left out */
-#define FIRST_THRESHOLD z /* rays of smaller weight are left out at the first attempt; see NUMERICS.md */
+#define ALLOWANCE y      /* what a sample may be charged for rays left out; negative: none is left out */
+#define SPENDING z       /* how readily that is spent, see NUMERICS.md */
 
 struct PackedSurface {
     LAYOUT_VEC4 parameters;

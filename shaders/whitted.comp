@@ -35,7 +35,8 @@ struct Work {
     uint row;   // of the pixel that is being rendered
     bool busy;  // there is such a pixel
     bool fresh; // its next ray is a primary ray
-    int pending; // rays on the stack
+    int pending; // rays on the stack, in registers
+    int saved; // and in memory
     Path path;
     Pixel pixel;
     Lighting light;
@@ -105,7 +106,6 @@ void cut_off(inout Pixel pixel, Path path)
     if (!CHARGED)
         return;
     pixel.charge = charge(pixel.charge, path.weight);
-    pixel.cut_off = charge(pixel.cut_off, path.weight);
     emit_untraced(true, UNTRACED_BOUNCES, path.weight, pixel.charge);
 }
 
@@ -138,15 +138,21 @@ bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real
         return true;
     exact real reflected_weight = path.weight * refraction.reflectance;
     exact real refracted_weight = path.weight * (real(1) - refraction.reflectance);
-    bool reflects = is_traced(pixel, reflected_weight);
-    bool refracts = is_traced(pixel, refracted_weight);
+    exact real reflected_root = root_of(reflected_weight);
+    exact real refracted_root = root_of(refracted_weight);
+    exact real open = pixel.waiting + reflected_root + refracted_root;
+    exact real waiting = pixel.waiting + reflected_root;
+    bool reflects = is_traced(pixel, reflected_weight, reflected_root, open);
+    bool refracts = is_traced(pixel, refracted_weight, refracted_root, open);
     emit_untraced(!reflects, UNTRACED_REFLECTED, reflected_weight, pixel.charge);
     emit_untraced(!refracts, UNTRACED_REFRACTED, refracted_weight, pixel.charge);
     path.weight = reflected_weight;
     path.branch = 2u * path.branch + 2u;
     if (refracts) {
-        if (reflects)
+        if (reflects) {
             push(path, pending);
+            pixel.waiting = waiting;
+        }
         path.ray.direction = refraction.direction;
         path.ray.inward = !hit.from_inside;
         path.weight = refracted_weight;
@@ -241,11 +247,13 @@ void turn(inout Work work, uint first_row)
             ++work.pixel.tally.secondary_rays;
             search.stage = SEARCH_FRESH;
         }
-    } while (HIERARCHY && goes_on);
+    } while (HIERARCHY && goes_on && !waits_for_stack(work));
     if (!bounces(hit))
         lights_on = end_path(work.pixel, work.light, work.path, hit, point, normal);
     if (GLASS && !goes_on && !lights_on && work.pending > 0) {
         pop(work.path, work.pending);
+        exact real waiting = work.pixel.waiting - root_of(work.path.weight);
+        work.pixel.waiting = waiting;
         ++work.pixel.tally.secondary_rays;
         goes_on = true;
     }
@@ -292,7 +300,7 @@ void main()
         return;
     if (goes_on)
         load(work, first_row);
-    for (uint turns = 0u; !is_done(work) && (!RESUMABLE || turns < most_turns) && (!HIERARCHY || steps > 0u); ++turns)
+    for (uint turns = 0u; !is_done(work) && !waits_for_stack(work) && (!RESUMABLE || turns < most_turns) && (!HIERARCHY || steps > 0u); ++turns)
         turn(work, first_row);
     if (RESUMABLE)
         save(work);

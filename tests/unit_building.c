@@ -70,11 +70,10 @@ static void build_all(void)
     const struct picture_settings settings = test_settings(&scene);
     assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
     assert_int_equal(reference_scene(&packed, 2, &reference), STATUS_DONE);
-    const struct sphere_records plan = sphere_records_plan(&packed);
-    uint32_t(*records)[4] = calloc(sphere_record_count(&plan), sizeof *records);
-    uint32_t *words = calloc(sphere_word_count(&plan), sizeof *words);
+    uint32_t(*records)[4] = calloc(sphere_record_count(&packed), sizeof *records);
+    uint32_t *words = calloc(sphere_word_count(&packed), sizeof *words);
     assert_true(records && words);
-    sphere_records_write(&plan, records, words);
+    sphere_records_write(&packed, records, words);
     free(records);
     free(words);
     pack_destroy(&packed);

@@ -31,10 +31,13 @@ static const char *const no_options[] = {NULL};
 static void same_as_the_build(void **state)
 {
     (void)state;
-    static const struct shader_choice choices[] = {{WHITTED_EXACT, false}, {WHITTED_FAST, true}};
-    for (int i = 0; i < 2; ++i) {
+    static const struct shader_choice choices[] = {
+        {WHITTED_EXACT, false}, {WHITTED_FAST, true}, {WHITTED_CORRECTED_EVENTS, true}};
+    for (int i = 0; i < 3; ++i) {
         struct spirv built = whitted_spirv(choices[i].variant, choices[i].scene_in_storage);
-        const char *options[1 + MOST_DEFINES] = {"-Os"}; /* shader_build() never takes the time */
+        const bool optimised =
+            choices[i].variant < WHITTED_EXACT_EVENTS; /* shader_build() never takes the time */
+        const char *options[1 + MOST_DEFINES] = {optimised ? "-Os" : "-DUNOPTIMISED"};
         shader_defines(choices[i], options + 1);
         struct compilation compilation = compile(SOURCE_DIR "/shaders/whitted.comp", options, STATUS_DONE);
         assert_string_equal(compilation.messages, "");

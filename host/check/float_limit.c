@@ -125,7 +125,7 @@ enum status float_limit_warn(const struct job *job)
     if (status != STATUS_DONE)
         return status;
     scene.samples = 1;
-    scene.view.truncation.FIRST_THRESHOLD = 0; /* no ray is left out */
+    scene.view.truncation.ALLOWANCE = -1; /* no ray is left out */
     scene.max_bounces = scene.max_bounces < MOST_BOUNCES ? scene.max_bounces : MOST_BOUNCES;
     scene.light_samples = scene.light_samples < MOST_LIGHT_SAMPLES ? scene.light_samples : MOST_LIGHT_SAMPLES;
     const size_t count = find_off_pixels(&scene, off);

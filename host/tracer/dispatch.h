@@ -21,8 +21,8 @@ enum status scene_buffer_create(struct vulkan_context *context, const struct pac
                                 bool storage, struct scene_buffer *scene_buffer);
 void scene_buffer_destroy(struct vulkan_context *context, struct scene_buffer *scene_buffer);
 
-/* Copies a scene with as many objects and lights over the one in the buffer. Where they have no hierarchy in
- * common it returns false and changes nothing. */
+/* Copies a scene with as many objects and lights over the one in the buffer. Where it has another number of
+ * surfaces it returns false and changes nothing. */
 bool scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_scene *old,
                          const struct packed_scene *scene);
 
@@ -69,7 +69,7 @@ struct dispatcher {
 
 /* What the buffer of EVENTS begins with. As EventBlock in shaders/events.glsl. */
 struct event_block {
-    uint32_t count, room, first_of_sample, unused;
+    uint32_t count, room, unused[2];
 };
 
 /* Builds the pipeline; info must outlive the dispatcher. On failure (reported) *dispatcher is empty. */

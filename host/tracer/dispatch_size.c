@@ -7,7 +7,7 @@
  * graphics card's watchdog bites after some seconds. */
 enum { MOST_TURNS = 30000 };
 
-enum { REGISTERS = 8 }; /* of path.glsl: a larger stack lies in a buffer */
+enum { REGISTERS = 8 }; /* of path.glsl: a deeper stack lies in a buffer, too */
 
 static uint64_t at_least_1(uint64_t x)
 {
@@ -29,8 +29,7 @@ static bool has_kind(const struct packed_scene *scene, int kind)
     return found;
 }
 
-/* The most rays that a sample may have: of a binary tree, where there is glass, traced again with up to 45
- * thresholds (each at most a quarter of the one before, and none below 2^-90). */
+/* The most rays that a sample may have: of a binary tree, where there is glass. */
 static uint64_t most_rays(const struct packed_scene *scene)
 {
     uint64_t bounces = (uint64_t)scene->max_bounces, rays = 1;
@@ -38,7 +37,7 @@ static uint64_t most_rays(const struct packed_scene *scene)
         rays = (UINT64_C(2) << smaller(bounces, 40)) - 1;
     else if (has_kind(scene, KIND_MIRROR))
         rays = bounces + 1;
-    return rays * (scene->view.truncation.ALLOWANCE >= 0 ? 45 : 1);
+    return rays;
 }
 
 /* Whether primary rays should have a loop of their own, before the one over rays. On a processor with long
@@ -83,17 +82,20 @@ static void choose_turns(const struct packed_scene *scene, bool primary_first, s
     while (size->rows > 4 && turns * size->rows > size->most_turns &&
            turns * size->rows / 4 <= size->most_turns)
         size->rows /= 2; /* which costs less than to go on in the next dispatch */
-    size->resumable = scene->hierarchy || turns * size->rows > size->most_turns;
+    size->resumable = scene->hierarchy || turns * size->rows > size->most_turns ||
+                      (has_kind(scene, KIND_TRANSPARENT) && scene->max_bounces > REGISTERS);
 }
 
 /* The slots in which an invocation keeps its work and its stack. */
 static void choose_memory(const struct packed_scene *scene, struct dispatch_size *size)
 {
-    uint32_t entries = size->resumable; /* for the path under way */
-    if (has_kind(scene, KIND_TRANSPARENT) && (size->resumable || scene->max_bounces > REGISTERS))
-        entries += (uint32_t)scene->max_bounces;
-    size->saved_reals = (size->resumable ? WORK_REALS : 0) + 2 * entries;
-    size->saved_words = (size->resumable ? WORK_WORDS : 0) + 2 * entries;
+    if (!size->resumable)
+        return;
+    uint32_t paths = 1; /* under way, and on the stack */
+    if (has_kind(scene, KIND_TRANSPARENT))
+        paths += (uint32_t)scene->max_bounces;
+    size->saved_reals = WORK_REALS + 2 * paths;
+    size->saved_words = WORK_WORDS + 3 * paths;
 }
 
 /* So that a dispatch ends well within a second, and its buffers fit. */

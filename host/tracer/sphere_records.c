@@ -19,7 +19,7 @@ enum { NODES_A_STEP = 16384 }; /* of the progress */
 static const float worth = 0.75F;
 
 struct writing {
-    const struct sphere_records *plan;
+    const struct packed_scene *scene;
     const struct hierarchy_node *nodes;
     float origin[3], step[3];
     uint32_t (*records)[4]; /* NULL: only counting */
@@ -61,7 +61,7 @@ static void write_box(const struct writing *writing, uint32_t record, const stru
 static void write_sphere(const struct writing *writing, uint32_t record, const struct hierarchy_node *leaf,
                          int which)
 {
-    const struct packed_scene *scene = writing->plan->scene;
+    const struct packed_scene *scene = writing->scene;
     const struct PackedSphere *sphere = &scene->spheres[leaf->sphere];
     const uint32_t number = leaf->sphere - (uint32_t)scene->looped_spheres;
     memcpy(writing->records[record], &sphere->center_radius, sizeof *writing->records);
@@ -87,7 +87,7 @@ static uint32_t record_of(uint32_t node)
 
 static void write_pairs(const struct writing *writing, struct progress *progress)
 {
-    const struct hierarchy *hierarchy = writing->plan->scene->hierarchy;
+    const struct hierarchy *hierarchy = writing->scene->hierarchy;
     if (hierarchy->node_count == 1) {
         write_sphere(writing, HEAD_RECORDS, hierarchy->nodes, PLACE_IN_PAIRS);
         write_nothing(writing, HEAD_RECORDS + 1);
@@ -131,47 +131,48 @@ static void write_stream(struct writing *writing, uint32_t place, float above)
         write_box(writing, record, &node->box, writing->next);
 }
 
-struct sphere_records sphere_records_plan(const struct packed_scene *scene)
+static uint64_t other_count(const struct packed_scene *scene)
 {
-    struct sphere_records plan = {.scene = scene};
-    const uint32_t count = (uint32_t)(scene->sphere_count - scene->looped_spheres);
-    if (count == 0)
-        return plan;
-    struct writing counting = {.plan = &plan, .nodes = scene->hierarchy->nodes};
-    write_stream(&counting, 0, INFINITY);
-    plan.pairs = count > 1 ? 2 * count - 2 : 2;
-    plan.stream = counting.next;
-    return plan;
+    return (uint64_t)(scene->sphere_count - scene->looped_spheres);
 }
 
-uint64_t sphere_record_count(const struct sphere_records *plan)
+/* At least a pair. */
+static uint64_t pair_records(const struct packed_scene *scene)
 {
-    return (uint64_t)plan->pairs + plan->stream + HEAD_RECORDS;
+    const uint64_t count = other_count(scene);
+    return count == 0 ? 0 : count == 1 ? 2 : 2 * count - 2;
 }
 
-uint64_t sphere_word_count(const struct sphere_records *plan)
+uint64_t sphere_record_count(const struct packed_scene *scene)
 {
-    return sphere_record_count(plan) +
-           (uint64_t)SPHERE_WORDS * (uint64_t)(plan->scene->sphere_count - plan->scene->looped_spheres);
+    const uint64_t nodes = scene->hierarchy ? scene->hierarchy->node_count : 0;
+    return HEAD_RECORDS + pair_records(scene) + nodes;
 }
 
-void sphere_records_write(const struct sphere_records *plan, uint32_t (*records)[4], uint32_t *words)
+uint64_t sphere_word_count(const struct packed_scene *scene)
 {
+    return sphere_record_count(scene) + SPHERE_WORDS * other_count(scene);
+}
+
+void sphere_records_write(const struct packed_scene *scene, uint32_t (*records)[4], uint32_t *words)
+{
+    const uint32_t stream = HEAD_RECORDS + (uint32_t)pair_records(scene);
     struct progress progress;
     struct writing writing = {
-        .plan = plan,
+        .scene = scene,
         .records = records,
         .words = words,
-        .sphere_words = words + sphere_record_count(plan),
-        .next = HEAD_RECORDS + plan->pairs,
+        .next = stream,
         .progress = &progress,
     };
     float largest = 0;
     interrupt_ends_process(true);
-    progress_start(&progress, "boxes for the device",
-                   4 * (uint64_t)(plan->scene->sphere_count - plan->scene->looped_spheres), false);
-    if (plan->stream > 0) {
-        writing.nodes = plan->scene->hierarchy->nodes;
+    progress_start(&progress, "boxes for the device", 4 * other_count(scene), false);
+    if (scene->hierarchy) {
+        struct writing counting = {.nodes = scene->hierarchy->nodes, .next = stream};
+        write_stream(&counting, 0, INFINITY);
+        writing.sphere_words = words + counting.next;
+        writing.nodes = scene->hierarchy->nodes;
         const struct box *box = &writing.nodes->box;
         for (int a = 0; a < 3; ++a)
             largest = fmaxf(largest, fmaxf(-box->lo[a], box->hi[a]));
@@ -183,8 +184,8 @@ void sphere_records_write(const struct sphere_records *plan, uint32_t (*records)
     const layout_vec4 step = {writing.step[0], writing.step[1], writing.step[2], 0};
     memcpy(records[GRID_ORIGIN], &origin, sizeof origin);
     memcpy(records[GRID_STEP], &step, sizeof step);
-    records[STREAM][0] = plan->pairs + HEAD_RECORDS;
-    records[STREAM][1] = (uint32_t)sphere_record_count(plan);
+    records[STREAM][0] = stream;
+    records[STREAM][1] = writing.next;
     memset(words, 0, HEAD_RECORDS * sizeof *words);
     progress_end(&progress);
     interrupt_ends_process(false);

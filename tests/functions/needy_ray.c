@@ -71,8 +71,7 @@ static bool is_hidden(struct needy_ray *needy, float units)
 {
     uint32_t records[64][4], words[128];
     struct hit hit;
-    const struct sphere_records plan = sphere_records_plan(&needy->scene);
-    sphere_records_write(&plan, records, words);
+    sphere_records_write(&needy->scene, records, words);
     const uint32_t *left = records[HEAD_RECORDS], *right = records[HEAD_RECORDS + 1];
     const bool left_is_larger = (left[0] >> 16) - (left[0] & 0xffff) > (right[0] >> 16) - (right[0] & 0xffff);
     return find_hit(&needy->scene, &needy->ray, &hit) && hit.surface == 1 &&
