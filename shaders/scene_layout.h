@@ -47,12 +47,14 @@ typedef struct PackedSurface PackedSurface;
 #define OUTPUT_RAYS 1
 #define OUTPUT_SIGNATURE 2
 
-/* What the device has of the spheres that are not looped over, in records of four words; see hierarchy.glsl. */
-#define GRID_ORIGIN 0  /* records at the beginning: a point of the grid, and the boxes' largest coordinate */
+/* What the device has of the spheres that are not looped over, in records of four words; see hierarchy.glsl.
+ */
+#define GRID_ORIGIN 0 /* records at the beginning: a point of the grid, and the boxes' largest coordinate */
 #define GRID_STEP 1
-#define STREAM 2       /* where the stream begins and ends */
+#define STREAM 2        /* where the stream begins and ends */
 #define HEAD_RECORDS 3u /* the first pair's place */
-#define BOX_FLAG 0xc0000000u /* with a record's number the last word of a box; that of a sphere is its radius */
+#define BOX_FLAG                                                                                             \
+    0xc0000000u /* with a record's number the last word of a box; that of a sphere is its radius */
 
 /* A word for each record: the number of its sphere, and flags; behind them some for each sphere. */
 #define HOLDS_RAYS_FLAG 0x80000000u
@@ -75,7 +77,9 @@ typedef struct PackedSurface PackedSurface;
 /* The charge for a ray that is not traced is its weight, which is its share in the pixel: times the bound on
  * radiance the most that it could have brought. Charges are summed to nearest; this factor after each
  * addition makes the sum one that is rounded up. */
-#define ROUND_UP 1.0000002384185791015625 /* 1 + 2^-22 */
+#define ROUND_UP 1.0000002384185791015625   /* 1 + 2^-22 */
+#define ROUND_DOWN 0.9999997615814208984375 /* 1 - 2^-22: likewise what is left of an allowance */
+#define LEAST_ROOM 9.5367431640625e-7       /* 2^-20: a smaller share of an allowance is not used */
 
 /* What both tracers can tell of one pixel: events in the order of the recursion. Each has a head and values:
  * two vectors and a number. */
