@@ -5,8 +5,6 @@
 
 #ifdef REFERENCE_RECORD
 
-enum { RECORDS = 1 }; /* all is told */
-
 #include "geometry.h"
 #include "reference_events.h"
 
@@ -18,8 +16,9 @@ static _Thread_local layout_ivec4 event_place;
 static _Thread_local struct {
     int state, blocker;
     struct vec3 values; /* distance, cos_in, received */
-    struct vec3 bounds;
-    double bound, area_bound; /* of the point and the area */
+    bool known;         /* what the bounds are */
+    struct vec3 bounds, point_bounds;
+    double area_bound;
     double margin;
 } event_light;
 
@@ -37,7 +36,9 @@ static inline void record(int kind, layout_ivec4 facts, struct vec3 first, struc
     };
 }
 
-static inline void record_bounds(struct vec3 first, struct vec3 second, double third, double margin)
+/* Where they are not known, they are infinite. */
+static inline void record_bounds(bool known, struct vec3 first, struct vec3 second, double third,
+                                 double margin)
 {
     const double bounds[EVENT_VALUES] = {(double)first.x,
                                          (double)first.y,
@@ -47,7 +48,7 @@ static inline void record_bounds(struct vec3 first, struct vec3 second, double t
                                          (double)second.z,
                                          third};
     for (int i = 0; i < EVENT_VALUES; ++i)
-        last_event->bounds[i] = bounds[i];
+        last_event->bounds[i] = known ? bounds[i] : INFINITY;
     last_event->margin = margin;
 }
 
@@ -83,7 +84,7 @@ static inline int find_blocker_in_tree(const struct packed_scene *scene, const s
 static inline int find_blocker(const struct packed_scene *scene, const struct segment *segment)
 {
     int i = 0;
-    while (i < tried_spheres(scene) && !sphere_blocks(&scene->spheres[i], i, segment))
+    while (i < tried_spheres(scene) && !tried_sphere_blocks(scene, i, segment))
         ++i;
     if (scene->tree && i == tried_spheres(scene))
         i = find_blocker_in_tree(scene, segment);
@@ -93,7 +94,7 @@ static inline int find_blocker(const struct packed_scene *scene, const struct se
 }
 
 #define RECORD(kind, facts, first, second, third) record(kind, facts, first, second, third)
-#define RECORD_BOUNDS(first, second, third, margin) record_bounds(first, second, third, margin)
+#define RECORD_BOUNDS(known, first, second, third, margin) record_bounds(known, first, second, third, margin)
 #define RECORD_RAY(sample, path)                                                                             \
     record_ray(sample, &(path)->ray, (real)(path)->weight, (path)->bounces, (path)->branch)
 #define RECORD_HIT(hit)                                                                                      \
@@ -107,13 +108,12 @@ static inline int find_blocker(const struct packed_scene *scene, const struct se
     if (when)                                                                                                \
     record(EVENT_UNTRACED, (layout_ivec4){.EVENT_REASON = why}, (struct vec3){(real)(weight), charge, 0},    \
            (struct vec3){0, 0, 0}, 0),                                                                       \
-        record_bounds(each(weight_bound), each(0), 0, INFINITY)
+        record_bounds(true, each(weight_bound), each(0), 0, INFINITY)
 #define RECORD_LEAF(seen, leaf) record(EVENT_LEAF, (layout_ivec4){0, 0, 0, 0}, seen, leaf, 0)
 
 #define NOTE_LIGHT_TOO_NEAR()                                                                                \
-    event_light.state = LIGHT_TOO_NEAR, event_light.blocker = NO_SURFACE,                                    \
-    event_light.values = event_light.bounds = each(0), event_light.bound = event_light.area_bound = 0,       \
-    event_light.margin = INFINITY
+    event_light.state = LIGHT_TOO_NEAR, event_light.blocker = NO_SURFACE, event_light.values = each(0),      \
+    event_light.known = false, event_light.margin = INFINITY
 #define NOTE_LIGHT_BEHIND(distance, cos_in)                                                                  \
     event_light.state = LIGHT_BEHIND, event_light.values = (struct vec3)                                     \
     {                                                                                                        \
@@ -124,20 +124,19 @@ static inline int find_blocker(const struct packed_scene *scene, const struct se
 #define NOTE_RECEIVED(received) event_light.values.z = received
 #define NOTE_LIGHT_BOUNDS(point, distance, cos_in, received, of_margin)                                      \
     event_light.bounds = (struct vec3){(real)(distance), (real)(cos_in), (real)(received)},                  \
-    event_light.bound = point, event_light.margin = of_margin
+    event_light.point_bounds = errors_vector(point), event_light.known = true,                               \
+    event_light.margin = of_margin
 #define NOTE_AREA_BOUND(area) event_light.area_bound = area
 #define RECORD_LIGHT(light, sample, point, area)                                                             \
     record(EVENT_LIGHT, (layout_ivec4){light, sample, event_light.state, event_light.blocker}, point,        \
            event_light.values, area),                                                                        \
-        record_bounds(each(event_light.bound), event_light.bounds, event_light.area_bound,                   \
-                      event_light.margin)
+        record_bounds(event_light.known, event_light.point_bounds, event_light.bounds,                       \
+                      event_light.area_bound, event_light.margin)
 
 #else
 
-enum { RECORDS = 0 };
-
 #define RECORD(kind, facts, first, second, third)
-#define RECORD_BOUNDS(first, second, third, margin)
+#define RECORD_BOUNDS(known, first, second, third, margin)
 #define RECORD_RAY(sample, path)
 #define RECORD_HIT(hit)
 #define RECORD_SPLIT(cos_in, refraction)

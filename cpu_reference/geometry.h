@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "giant.h"
 #include "packed_scene.h"
 #include "real.h"
 #include "sphere_tree.h"
@@ -108,6 +109,27 @@ static inline bool meet_sphere(const struct PackedSphere *sphere, int surface, c
     return approach.along > 0 && approach.half_chord_squared > 0;
 }
 
+/* As meet_sphere(). */
+static inline bool meet_giant(const struct giant *giant, bool holds_rays, int surface, const struct ray *ray,
+                              real *distance, bool *from_inside)
+{
+    struct giant_line line = giant_line(giant, ray->origin, ray->direction, holds_rays);
+    real root = giant_root(&line);
+    *from_inside = true;
+    if (ray->surface == surface) {
+        *distance = 2 * at_least_zero(-line.slope) / giant->curvature;
+        return ray->inward;
+    }
+    if (line.height < 0) { /* of the two ways to write the second root, the one that does not cancel */
+        *distance = line.slope > 0 ? -(2 * line.height) / (line.slope + root)
+                                   : (root - line.slope) / giant->curvature;
+        return true;
+    }
+    *from_inside = false;
+    *distance = 2 * line.height / (root - line.slope);
+    return line.slope < 0 && giant_is_crossed(&line);
+}
+
 static inline bool meet_plane(const struct PackedPlane *plane, int surface, const struct ray *ray,
                               real *distance, bool *from_inside)
 {
@@ -130,7 +152,13 @@ static inline bool meet_plane(const struct PackedPlane *plane, int surface, cons
 static inline void locate(const struct packed_scene *scene, const struct ray *ray, struct hit *hit)
 {
     struct vec3 normal;
-    if (hit->surface < scene->sphere_count) {
+    if (is_giant(scene, hit->surface)) {
+        struct giant giant = giant_of(scene, hit->surface);
+        struct vec3 point = add(ray->origin, scale(hit->distance, ray->direction));
+        struct vec3 gradient = giant_gradient(&giant, point);
+        normal = normalize(gradient);
+        hit->point = subtract(point, scale(giant_height(&giant, point), gradient));
+    } else if (hit->surface < scene->sphere_count) {
         layout_vec4 shape = scene->spheres[hit->surface].center_radius;
         struct vec3 center = vector_of(shape);
         struct approach approach = approach_sphere(subtract(center, ray->origin), ray->direction, shape.w);
@@ -167,8 +195,14 @@ static inline void try_sphere(const struct packed_scene *scene, int i, const str
 {
     const struct PackedSphere *sphere = &scene->spheres[i];
     real distance;
-    bool from_inside;
-    if (meet_sphere(sphere, i, ray, &distance, &from_inside))
+    bool from_inside, met;
+    if (is_giant(scene, i)) {
+        struct giant giant = giant_of(scene, i);
+        met = meet_giant(&giant, sphere->tags.HOLDS_RAYS != 0, i, ray, &distance, &from_inside);
+    } else {
+        met = meet_sphere(sphere, i, ray, &distance, &from_inside);
+    }
+    if (met)
         take_if_nearer(nearest, distance, i, from_inside, &scene->surfaces[sphere->tags.SURFACE],
                        sphere->tags.FILE_ORDER);
 }
@@ -234,6 +268,30 @@ static inline bool sphere_blocks(const struct PackedSphere *sphere, int surface,
     return approach.along > 0 && approach.half_chord_squared > 0 && approach.along < segment->length;
 }
 
+/* As sphere_blocks(). */
+static inline bool giant_blocks(const struct giant *giant, layout_ivec4 tags, int surface,
+                                const struct segment *segment)
+{
+    bool own = segment->surface == surface;
+    if (own && !segment->inward)
+        return false;
+    struct giant_line line = giant_line(giant, segment->from, segment->direction, tags.HOLDS_RAYS != 0);
+    bool starts_inside = own || line.height < 0;
+    bool ends_inside = tags.HOLDS_LIGHTS != 0 && giant_height(giant, segment->to) < 0;
+    if (starts_inside || ends_inside)
+        return starts_inside != ends_inside;
+    return line.slope < 0 && giant_is_crossed(&line) && -line.slope < giant->curvature * segment->length;
+}
+
+/* Sphere i, which may be a giant. */
+static inline bool tried_sphere_blocks(const struct packed_scene *scene, int i, const struct segment *segment)
+{
+    if (!is_giant(scene, i))
+        return sphere_blocks(&scene->spheres[i], i, segment);
+    struct giant giant = giant_of(scene, i);
+    return giant_blocks(&giant, scene->spheres[i].tags, i, segment);
+}
+
 /* A segment crosses a plane exactly when its ends lie on different sides; `from` is known to lie in front
  * of every opaque plane. */
 static inline bool plane_blocks(const struct PackedPlane *plane, int surface, const struct segment *segment)
@@ -272,7 +330,7 @@ static inline bool tree_blocks(const struct packed_scene *scene, const struct se
 static inline bool is_blocked(const struct packed_scene *scene, const struct segment *segment)
 {
     for (int i = 0; i < tried_spheres(scene); ++i)
-        if (sphere_blocks(&scene->spheres[i], i, segment))
+        if (tried_sphere_blocks(scene, i, segment))
             return true;
     for (int i = 0; i < scene->plane_count; ++i)
         if (plane_blocks(&scene->planes[i], scene->sphere_count + i, segment))

@@ -5,11 +5,6 @@
 #include "margin.h"
 #include "matte.h"
 
-/* A number with what float may be off by. */
-struct tracked {
-    double value, error;
-};
-
 /* Margin of one sphere's blocking the segment or not; *blocks gets which. */
 static inline double sphere_block_margin(const struct PackedSphere *sphere, int surface,
                                          const struct segment *segment, double e_from, double e_direction,
@@ -40,6 +35,40 @@ static inline double sphere_block_margin(const struct PackedSphere *sphere, int 
     return smaller(margin, conjunction_margin(&blocked));
 }
 
+/* Of a giant. */
+static inline double giant_block_margin(const struct packed_scene *scene, int i,
+                                        const struct segment *segment, double e_from, double e_direction,
+                                        bool *blocks)
+{
+    const layout_ivec4 tags = scene->spheres[i].tags;
+    const bool own = segment->surface == i;
+    *blocks = tried_sphere_blocks(scene, i, segment);
+    if (own && !segment->inward)
+        return INFINITY;
+    struct giant giant = giant_of(scene, i);
+    struct tracked_giant_line line =
+        track_giant_line(&giant, segment->from, segment->direction, (struct ray_error){e_from, e_direction},
+                         !own && tags.HOLDS_RAYS != 0);
+    double margin = INFINITY;
+    bool inside = own || line.height < 0;
+    if (tags.HOLDS_LIGHTS != 0) {
+        double height = (double)giant_height(&giant, segment->to);
+        margin = margin_of(height, height_error(&giant, segment->to, rounding(length(segment->to))));
+        inside = inside || height < 0;
+    }
+    if (!own && tags.HOLDS_RAYS != 0)
+        margin = smaller(margin, margin_of(line.height, line.e_height));
+    if (inside)
+        return margin; /* where the ends lie decides all */
+    double bend = (double)giant.curvature * (double)segment->length;
+    struct conjunction blocked = conjunction_begin();
+    require_positive(&blocked, -line.slope, line.e_slope);
+    require_positive(&blocked, line.root_squared, line.e_root_squared);
+    require_positive(&blocked, bend + line.slope,
+                     line.e_slope + (double)giant.curvature * e_from + rounding(bend));
+    return smaller(margin, conjunction_margin(&blocked));
+}
+
 static inline double plane_block_margin(const struct PackedPlane *plane, int surface,
                                         const struct segment *segment, double e_from, bool *blocks)
 {
@@ -48,12 +77,12 @@ static inline double plane_block_margin(const struct PackedPlane *plane, int sur
         return INFINITY;
     struct vec3 normal = vector_of(plane->normal_offset);
     double offset = (double)plane->normal_offset.w;
-    double end = fabs((double)dot(normal, segment->to) - offset);
-    double margin = end / rounding(length(segment->to) + fabs(offset));
+    double margin =
+        margin_of((double)dot(normal, segment->to) - offset, rounding(length(segment->to) + fabs(offset)));
     if (plane->surface.tags.SURFACE_KIND != KIND_TRANSPARENT || segment->surface == surface)
         return margin;
-    double start = fabs((double)dot(normal, segment->from) - offset);
-    return smaller(margin, start / (e_from + rounding(length(segment->from) + fabs(offset))));
+    return smaller(margin, margin_of((double)dot(normal, segment->from) - offset,
+                                     e_from + rounding(length(segment->from) + fabs(offset))));
 }
 
 /* Whether a point is hidden, and how safe that is. */
@@ -76,7 +105,9 @@ static inline void add_sphere(const struct packed_scene *scene, int i, const str
                               double e_from, double e_direction, struct shadow *shadow)
 {
     bool blocks;
-    double margin = sphere_block_margin(&scene->spheres[i], i, segment, e_from, e_direction, &blocks);
+    double margin = is_giant(scene, i)
+                        ? giant_block_margin(scene, i, segment, e_from, e_direction, &blocks)
+                        : sphere_block_margin(&scene->spheres[i], i, segment, e_from, e_direction, &blocks);
     add_blocker(shadow, blocks, margin);
 }
 
@@ -94,11 +125,11 @@ static inline struct tree_line tree_segment_in_float(const struct segment *segme
 
 /* Those that the tree does not rule out, which looks ever closer as smaller margins are found. */
 static inline void add_tree_spheres(const struct packed_scene *scene, const struct segment *segment,
-                                    double e_from, double e_direction, double wanted, struct shadow *shadow)
+                                    double e_from, double e_direction, struct shadow *shadow)
 {
     if (is_in_tree(scene, segment->surface))
         add_sphere(scene, segment->surface, segment, e_from, e_direction, shadow);
-    wanted = smaller(shadow->weakest, wanted);
+    double wanted = smaller(shadow->weakest, 1);
     const struct tree_line line = tree_segment_in_float(segment, e_from, e_direction, wanted);
     struct sphere_walk walk = sphere_walk_begin(scene->tree, &line, (double)segment->length);
     for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;) {
@@ -110,16 +141,16 @@ static inline void add_tree_spheres(const struct packed_scene *scene, const stru
     }
 }
 
-/* Margin of the light point's being hidden; *hides gets whether it is. Where it is not and the margin is at
- * least `wanted`, which is at most 1, any such number. */
+/* Margin of the light point's being hidden; *hides gets whether it is. Where it is not, a margin of at least
+ * 1 may be larger with a tree. */
 static inline double shadow_margin(const struct packed_scene *scene, const struct segment *segment,
-                                   double e_from, double e_direction, double wanted, bool *hides)
+                                   double e_from, double e_direction, bool *hides)
 {
     struct shadow shadow = {.weakest = INFINITY};
     for (int i = 0; i < tried_spheres(scene); ++i)
         add_sphere(scene, i, segment, e_from, e_direction, &shadow);
     if (scene->tree)
-        add_tree_spheres(scene, segment, e_from, e_direction, wanted, &shadow);
+        add_tree_spheres(scene, segment, e_from, e_direction, &shadow);
     for (int i = 0; i < scene->plane_count; ++i) {
         bool blocks;
         double margin =
@@ -130,111 +161,172 @@ static inline double shadow_margin(const struct packed_scene *scene, const struc
     return shadow.hides ? shadow.strongest_block : shadow.weakest;
 }
 
-/* As receive(), with its error, for a point light (quad NULL) or a point of a quad; *margin is lowered to
- * that of its being lit or not. */
-static inline struct tracked track_receive(const struct packed_scene *scene, const struct matte_point *matte,
-                                           struct hit_error hit_error, double e_ray_direction,
-                                           const struct PackedQuadLight *quad, struct vec3 light,
-                                           double e_light, struct vec3 *to_light, struct tally *tally,
-                                           double *e_to_light, double *margin)
-{
-    const struct hit *hit = matte->hit;
-    double value = (double)receive(scene, matte, light, to_light, tally);
-    double distance = length(subtract(light, hit->point));
-    double e_way = hit_error.point + e_light + rounding(distance);
-    *e_to_light = e_way / distance + rounding(1);
-    if (!(distance * distance > NEAREST_LIGHT_SQUARED))
-        return (struct tracked){value, 0};
-    struct vec3 direction = scale(1 / (real)distance, subtract(light, hit->point));
-    double cos_in = (double)dot(hit->normal, direction), cos_out = fabs((double)matte->cos_out);
-    double e_cos_in = *e_to_light + hit_error.normal + rounding(1);
-    double e_cos_out = e_ray_direction + hit_error.normal + rounding(1);
-    NOTE_LIGHT_BOUNDS(e_light, e_way, e_cos_in, 0, INFINITY);
-    if (cos_in < -e_cos_in)
-        return (struct tracked){value, 0};
+static const double nearest_light = 0x1p-30; /* the root of NEAREST_LIGHT_SQUARED */
 
+/* What float may be off by at the matte point. */
+struct point_errors {
+    struct hit_error hit;
+    struct errors ray_direction;
+};
+
+/* A point of a light as the matte point sees it. */
+struct tracked_sample {
+    struct vec3 direction; /* to it, 0 where float knows none */
+    struct errors e_direction;
+    double received, error; /* as of receive() */
+    double margin;          /* of its being lit or not */
+    bool may_hide;          /* in float, or is hidden and may be not: the error is all that it may bring */
+};
+
+/* Oren-Nayar's factor where the light is visible, with its error. */
+static inline double track_factor(const struct matte_point *matte, const struct point_errors *point,
+                                  const struct tracked_sample *sample, double cos_in, double e_cos_in,
+                                  double *error)
+{
+    const PackedSurface *material = matte->hit->material;
+    const struct vec3 to_light = sample->direction, along = matte->ray->direction;
+    const double a = (double)material->parameters.OREN_NAYAR_A,
+                 b = (double)material->more_parameters.OREN_NAYAR_B;
+    const double cos_out = fabs((double)matte->cos_out), in = larger(cos_in, 0);
+    const double e_cos_out = dot_error(matte->hit->normal, point->hit.normal, along, point->ray_direction);
     /* The factor (a + b s / larger) cos_in is continuous, so neither s > 0 nor cos_in > 0 is a decision. */
-    double a = (double)hit->material->parameters.OREN_NAYAR_A,
-           b = (double)hit->material->more_parameters.OREN_NAYAR_B;
-    double s = larger(-(double)dot(direction, matte->ray->direction) - cos_in * cos_out, 0);
-    double larger_cos = larger(larger(cos_in, cos_out), e_cos_in);
-    double e_s = *e_to_light + e_ray_direction + cos_out * e_cos_in + cos_in * e_cos_out + rounding(1);
-    double in = larger(cos_in, 0);
-    double ratio = s / larger_cos;
-    double factor = (a + b * ratio) * in;
-    double e_factor = (a + b * ratio) * e_cos_in +
-                      b * smaller(1, (in + e_cos_in) / larger_cos) * (e_s + ratio * (e_cos_in + e_cos_out)) +
-                      rounding(2 * factor);
-    double falloff = 1 / (distance * distance);
-    double error = (e_factor + factor * (2 * e_way / distance + rounding(2))) * falloff;
-    struct segment segment = {hit->point, light, direction, (real)distance, hit->surface, hit->from_inside};
-    struct conjunction lit = conjunction_begin();
-    bool hides = false;
-    double shadow = 0;
-    if (*margin != 0 || RECORDS) /* it cannot fall below */
-        shadow = shadow_margin(scene, &segment, hit_error.point, *e_to_light,
-                               RECORDS ? 1 : smaller(*margin, 1), &hides);
-    require_positive(&lit, cos_in, e_cos_in);
-    require_positive(&lit, hides ? -shadow : shadow, 1);
-    if (quad) {
-        double area = length(vector_of(quad->area_normal));
-        require_positive(&lit, (double)dot(vector_of(quad->area_normal), direction),
-                         area * (*e_to_light + rounding(1)));
-    }
-    *margin = smaller(*margin, conjunction_margin(&lit));
-    NOTE_LIGHT_BOUNDS(e_light, e_way, e_cos_in, error, conjunction_margin(&lit));
-    return (struct tracked){value, error};
+    const double s = larger(-(double)dot(to_light, along) - cos_in * cos_out, 0);
+    const double larger_cos = larger(larger(cos_in, cos_out), e_cos_in);
+    const double e_s = dot_error(to_light, sample->e_direction, along, point->ray_direction) +
+                       cos_out * e_cos_in + cos_in * e_cos_out + unit_roundoff * (s + 2 * in * cos_out);
+    const double ratio = s / larger_cos, factor = (a + b * ratio) * in;
+    *error = (a + b * ratio) * e_cos_in +
+             b * smaller(1, (in + e_cos_in) / larger_cos) * (e_s + ratio * (e_cos_in + e_cos_out)) +
+             4 * unit_roundoff * factor;
+    *error = smaller(*error, a + b); /* the factor is in [0, a + b] */
+    return factor;
 }
 
-/* Error of reflect_lights() without albedo, for each channel; runs through the same points in the same order.
- */
-static inline struct vec3 track_lights(const struct packed_scene *scene, const struct ray *ray,
-                                       const struct hit *hit, struct hit_error hit_error,
-                                       double e_ray_direction, uint32_t seed, uint32_t pixel_sample,
-                                       struct vec3 *sum_of_errors, struct tally *tally, double *margin)
+/* As receive(), with its error and the margin of its being lit, for a point light (quad NULL) or a point of a
+ * quad. */
+static inline struct tracked_sample
+track_receive(const struct packed_scene *scene, const struct matte_point *matte,
+              const struct point_errors *point, const struct PackedQuadLight *quad, struct vec3 light,
+              struct errors e_light, struct vec3 *to_light, struct tally *tally)
+{
+    const struct errors none = {0, 0, 0, 0};
+    const struct hit *hit = matte->hit;
+    struct tracked_sample sample = {.received = (double)receive(scene, matte, light, to_light, tally)};
+    const struct vec3 way = subtract(light, hit->point);
+    const struct errors e_way = errors_add(errors_add(point->hit.point, e_light), errors_of(1, way));
+    const double distance = length(way), off = errors_length(e_way);
+    if (distance - off <= nearest_light) { /* too near to shine, or perhaps not, and from wherever */
+        sample.error = 2 / NEAREST_LIGHT_SQUARED;
+        sample.e_direction = (struct errors){1, 1, 1, 1};
+        sample.may_hide = true;
+        return sample;
+    }
+    sample.direction = scale(1 / (real)distance, way);
+    sample.e_direction = unit_errors(sample.direction, errors_scale(1 / (distance - off), e_way));
+    const double cos_in = (double)dot(hit->normal, sample.direction);
+    const double e_cos_in = dot_error(hit->normal, point->hit.normal, sample.direction, sample.e_direction);
+    sample.margin = INFINITY;
+    NOTE_LIGHT_BOUNDS(e_light, off, e_cos_in, 0, INFINITY);
+    if (cos_in < -e_cos_in)
+        return sample;
+    double e_factor, factor = track_factor(matte, point, &sample, cos_in, e_cos_in, &e_factor);
+    const struct segment segment = {hit->point,     light,        sample.direction,
+                                    (real)distance, hit->surface, hit->from_inside};
+    const double nearest =
+        distance - smaller(errors_weigh(sample.direction, e_way) + off * off / (distance - off), off);
+    const double falloff = 1 / (distance * distance), largest_falloff = 1 / (nearest * nearest);
+    struct conjunction lit = conjunction_begin();
+    bool hides = false;
+    const double shadow = shadow_margin(scene, &segment, errors_length(point->hit.point),
+                                        errors_length(sample.e_direction), &hides);
+    sample.may_hide = shadow < 1;
+    if (!hides || sample.may_hide)
+        sample.error = (factor + e_factor) * largest_falloff - (sample.may_hide ? 0 : factor * falloff) +
+                       9 * unit_roundoff * factor * falloff;
+    require_positive(&lit, cos_in, e_cos_in);
+    require_positive(&lit, hides ? -shadow : shadow, 1);
+    if (quad)
+        require_positive(&lit, (double)dot(vector_of(quad->area_normal), sample.direction),
+                         dot_error(vector_of(quad->area_normal), none, sample.direction, sample.e_direction));
+    sample.margin = conjunction_margin(&lit);
+    NOTE_LIGHT_BOUNDS(e_light, off, e_cos_in, sample.error, sample.margin);
+    return sample;
+}
+
+/* What reflect_lights() adds up, without albedo, and how far it may be off in float, for each channel. */
+struct tracked_light {
+    struct vec3 radiance;
+    struct vec3 rounding; /* as long as float has the same points hidden */
+    struct vec3 shadow;   /* by the others */
+    double margin;        /* of the closest decision */
+};
+
+/* Adds what is received of a light of that intensity. */
+static inline void add_light(struct tracked_light *light, layout_vec4 intensity, double received,
+                             double rounding_error, double shadow_error)
+{
+    struct vec3 each = vector_of(intensity);
+    light->radiance = add(light->radiance, scale((real)received, each));
+    light->rounding = add(light->rounding, scale((real)(rounding_error + rounding(received)), each));
+    light->shadow = add(light->shadow, scale((real)shadow_error, each));
+}
+
+static inline void track_quad(const struct packed_scene *scene, int number, const struct matte_point *matte,
+                              const struct point_errors *point, uint32_t seed, uint32_t pixel_sample,
+                              struct tally *tally, struct tracked_light *result)
+{
+    const struct PackedQuadLight *quad = &scene->quad_lights[number];
+    struct vec3 edge_u = vector_of(quad->edge_u), edge_v = vector_of(quad->edge_v), to_light = {0, 0, 0};
+    const struct vec3 area = vector_of(quad->area_normal);
+    const struct errors none = {0, 0, 0, 0};
+    double sum = 0, errors[] = {0, 0};
+    for (int k = 0; k < scene->light_samples; ++k) {
+        real u, v;
+        sobol_point(seed, pixel_sample * (uint32_t)scene->light_samples + (uint32_t)k, &u, &v);
+        struct vec3 light = add(add(vector_of(quad->corner), scale(u, edge_u)), scale(v, edge_v));
+        struct errors e_light = errors_add(errors_of(1, scale(u, edge_u)), errors_of(1, scale(v, edge_v)));
+        e_light = errors_add(
+            e_light, errors_add(errors_of(2, light), errors_of(1, subtract(light, scale(v, edge_v)))));
+        struct tracked_sample sample =
+            track_receive(scene, matte, point, quad, light, e_light, &to_light, tally);
+        real projected = dot(area, to_light);
+        bool lit = sample.received > 0 && projected > 0;
+        note(tally, lit);
+        double e_projected =
+            dot_error(area, none, sample.direction, sample.e_direction) + FLT_MIN; /* denormal */
+        double largest = larger((double)dot(area, sample.direction) + e_projected, 0);
+        NOTE_AREA_BOUND(e_projected);
+        RECORD_LIGHT(scene->point_light_count + number, k, light, projected);
+        sum += lit ? sample.received * (double)projected : 0;
+        errors[sample.may_hide] += sample.error * largest + sample.received * smaller(e_projected, largest);
+        result->margin = smaller(result->margin, sample.margin);
+    }
+    errors[0] += scene->light_samples * unit_roundoff * sum; /* the plain sum's */
+    add_light(result, quad->radiance, sum, errors[0], errors[1]);
+}
+
+/* As reflect_lights(), through the same points in the same order. */
+static inline struct tracked_light track_lights(const struct packed_scene *scene, const struct ray *ray,
+                                                const struct hit *hit, const struct point_errors *point,
+                                                uint32_t seed, uint32_t pixel_sample, struct tally *tally)
 {
     struct matte_point matte = {ray, hit, -dot(hit->normal, ray->direction)};
-    struct vec3 sum = {0, 0, 0}, errors = {0, 0, 0};
-    struct vec3 to_light = {0, 0, 0};
-    double e_to_light;
+    struct tracked_light light = {.margin = INFINITY};
     for (int i = 0; i < scene->point_light_count; ++i) {
-        struct vec3 position = vector_of(scene->point_lights[i].position);
-        struct tracked received = track_receive(scene, &matte, hit_error, e_ray_direction, NULL, position, 0,
-                                                &to_light, tally, &e_to_light, margin);
-        note(tally, received.value > 0);
+        struct vec3 position = vector_of(scene->point_lights[i].position), to_light;
+        struct tracked_sample sample = track_receive(scene, &matte, point, NULL, position,
+                                                     (struct errors){0, 0, 0, 0}, &to_light, tally);
+        note(tally, sample.received > 0);
         RECORD_LIGHT(i, 0, position, 1);
-        struct vec3 intensity = vector_of(scene->point_lights[i].intensity);
-        sum = add(sum, scale((real)received.value, intensity));
-        errors = add(errors, scale((real)(received.error + rounding(received.value)), intensity));
+        add_light(&light, scene->point_lights[i].intensity, sample.received,
+                  sample.may_hide ? 0 : sample.error, sample.may_hide ? sample.error : 0);
+        light.margin = smaller(light.margin, sample.margin);
     }
-    for (int i = 0; i < scene->quad_light_count; ++i) {
-        const struct PackedQuadLight *quad = &scene->quad_lights[i];
-        struct vec3 edge_u = vector_of(quad->edge_u), edge_v = vector_of(quad->edge_v);
-        double area = length(vector_of(quad->area_normal));
-        double quad_sum = 0, quad_error = 0;
-        for (int k = 0; k < scene->light_samples; ++k) {
-            real u, v;
-            sobol_point(seed + (uint32_t)i, pixel_sample * (uint32_t)scene->light_samples + (uint32_t)k, &u,
-                        &v);
-            struct vec3 light = add(add(vector_of(quad->corner), scale(u, edge_u)), scale(v, edge_v));
-            double e_light = rounding(length(light) + length(edge_u) + length(edge_v));
-            struct tracked received = track_receive(scene, &matte, hit_error, e_ray_direction, quad, light,
-                                                    e_light, &to_light, tally, &e_to_light, margin);
-            double projected = (double)dot(vector_of(quad->area_normal), to_light);
-            bool lit = received.value > 0 && projected > 0;
-            note(tally, lit);
-            double e_projected = area * (e_to_light + rounding(1));
-            NOTE_AREA_BOUND(e_projected);
-            RECORD_LIGHT(scene->point_light_count + i, k, light, (real)projected);
-            quad_sum += lit ? received.value * projected : 0;
-            quad_error += received.error * larger(projected, 0) + received.value * e_projected;
-        }
-        quad_error += scene->light_samples * unit_roundoff * quad_sum; /* the plain sum's */
-        sum = add(sum, scale((real)quad_sum, vector_of(quad->radiance)));
-        errors = add(errors, scale((real)(quad_error + rounding(quad_sum)), vector_of(quad->radiance)));
-    }
-    *sum_of_errors = errors;
-    return sum;
+    for (int i = 0; i < scene->quad_light_count; ++i)
+        track_quad(scene, i, &matte, point, seed + (uint32_t)i, pixel_sample, tally, &light);
+    double sums = (scene->point_light_count + scene->quad_light_count) * unit_roundoff;
+    light.rounding = add(light.rounding, scale((real)sums, light.radiance)); /* the plain sum's */
+    return light;
 }
 
 #endif

@@ -1,42 +1,17 @@
-/* Running error analysis of the float tracer (Higham, "Accuracy and Stability of Numerical Algorithms",
- * section 3.3), carried along by the high-precision build: how far the float run may be from the exact one at
- * each quantity, to first order, and how far each decision is from going the other way. NUMERICS.md derives
- * the formulas. All errors are absolute and in scene units, radians or radiance. A margin is the distance to
- * the other outcome in units of the error: below 1, float may decide otherwise. */
+/* How far each decision of the float tracer is from going the other way, as the high-precision build finds
+ * it; see error.h. A margin is the distance to the other outcome in units of the error: below 1, float may
+ * decide otherwise. It is never NaN. */
 #ifndef REFERENCE_MARGIN_H
 #define REFERENCE_MARGIN_H
 
-#include "dielectric.h"
-#include "geometry.h"
+#include "error.h"
 
-static const double unit_roundoff = 0x1p-24; /* float's */
-
-/* What a few operations on quantities of this size lose: the vector formulas here take 4 to 8 roundings of
- * half a unit each. */
-static inline double rounding(double magnitude)
+/* Of value > 0 or not, value being known up to error; 0 where the analysis knows neither. */
+static inline double margin_of(double value, double error)
 {
-    return 3 * unit_roundoff * magnitude;
+    double margin = fabs(value) / error;
+    return error == 0 ? INFINITY : margin >= 0 ? margin : 0;
 }
-
-static inline double length(struct vec3 v)
-{
-    return (double)square_root(dot(v, v));
-}
-
-static inline double smaller(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static inline double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
-struct ray_error {
-    double origin;    /* length */
-    double direction; /* radians */
-};
 
 /* A decision by several conditions that must all hold: if it holds, the weakest condition decides how safe it
  * is; if not, the strongest of those that fail. */
@@ -53,7 +28,7 @@ static inline struct conjunction conjunction_begin(void)
 /* value > 0, value being known up to error. */
 static inline void require_positive(struct conjunction *decision, double value, double error)
 {
-    double margin = fabs(value) / error;
+    double margin = margin_of(value, error);
     if (value > 0) {
         decision->weakest = smaller(decision->weakest, margin);
     } else {
@@ -66,6 +41,12 @@ static inline double conjunction_margin(const struct conjunction *decision)
 {
     return decision->holds ? decision->weakest : decision->strongest_failure;
 }
+
+/* How far a ray may be off. */
+struct ray_error {
+    double origin;    /* length */
+    double direction; /* radians */
+};
 
 /* How a ray passes a sphere, with errors. */
 struct tracked_approach {
@@ -81,7 +62,7 @@ static inline struct tracked_approach track_approach(layout_vec4 center_radius, 
     struct approach approach = approach_sphere(to_center, direction, center_radius.w);
     double apart = length(to_center), radius = (double)center_radius.w;
     double center_offset = length(approach.center_offset);
-    double half_chord = (double)square_root(at_least_zero(approach.half_chord_squared));
+    double half_chord_squared = (double)at_least_zero(approach.half_chord_squared);
     double e_clearance =
         error.origin + fabs((double)approach.along) * error.direction + rounding(apart + radius);
     return (struct tracked_approach){
@@ -89,9 +70,8 @@ static inline struct tracked_approach track_approach(layout_vec4 center_radius, 
         .e_along = error.origin + apart * error.direction + rounding(apart),
         .clearance = (double)approach.half_chord_squared / (radius + center_offset),
         .e_clearance = e_clearance,
-        .half_chord = half_chord,
-        /* of the root of a quantity with error 2 radius e_clearance, which may be near 0 */
-        .e_half_chord = smaller(radius * e_clearance / half_chord, sqrt(2 * radius * e_clearance)),
+        .half_chord = sqrt(half_chord_squared),
+        .e_half_chord = root_error(half_chord_squared, 2 * radius * e_clearance),
     };
 }
 
@@ -99,7 +79,7 @@ static inline struct tracked_approach track_approach(layout_vec4 center_radius, 
 static inline double inside_margin(layout_vec4 center_radius, struct vec3 point, double e_point)
 {
     double apart = length(subtract(vector_of(center_radius), point)), radius = (double)center_radius.w;
-    return fabs(apart - radius) / (e_point + rounding(apart + radius));
+    return margin_of(apart - radius, e_point + rounding(apart + radius));
 }
 
 static inline bool contains(const struct PackedSphere *sphere, struct vec3 point)
@@ -107,19 +87,104 @@ static inline bool contains(const struct PackedSphere *sphere, struct vec3 point
     return lies_inside(subtract(vector_of(sphere->center_radius), point), sphere->center_radius.w);
 }
 
-/* Error of a distance along the ray to the surface, which the ray meets. */
+/* Of a height over a giant; no gradient on the way to the point is longer than `steepest`. */
+static inline double height_error(const struct giant *giant, struct vec3 point, double e_point)
+{
+    double steepest = length(giant->gradient) + (double)giant->curvature * length(point);
+    return e_point * steepest + rounding(fabs((double)giant->offset) + length(point) * steepest);
+}
+
+/* As giant_line(), with errors. */
+struct tracked_giant_line {
+    double height, e_height, slope, e_slope;
+    double root_squared, e_root_squared;
+    double root, e_root;
+};
+
+static inline struct tracked_giant_line track_giant_line(const struct giant *giant, struct vec3 origin,
+                                                         struct vec3 direction, struct ray_error error,
+                                                         bool may_be_inside)
+{
+    struct giant_line line = giant_line(giant, origin, direction, may_be_inside);
+    double curvature = (double)giant->curvature;
+    double steepest = length(giant->gradient) + curvature * length(origin);
+    struct tracked_giant_line tracked = {
+        .height = (double)line.height,
+        .e_height = height_error(giant, origin, error.origin),
+        .slope = (double)line.slope,
+        .e_slope = error.direction * steepest + curvature * error.origin + rounding(steepest),
+        .root_squared = (double)line.root_squared,
+        .root = (double)giant_root(&line),
+    };
+    tracked.e_root_squared = (2 * fabs(tracked.slope) + tracked.e_slope) * tracked.e_slope +
+                             2 * curvature * tracked.e_height +
+                             rounding(tracked.slope * tracked.slope + 2 * curvature * fabs(tracked.height));
+    tracked.e_root = root_error(tracked.root * tracked.root, tracked.e_root_squared);
+    return tracked;
+}
+
+/* Error of the distance at which the line meets the giant: a chord; from inside; or from outside, where it is
+ * 2 height / (root - slope). Where the line is certain to meet it, e_slope + e_root is at most 3/4 of that.
+ */
+static inline double giant_distance_error(const struct giant *giant, const struct tracked_giant_line *line,
+                                          bool chord, double distance)
+{
+    double curvature = (double)giant->curvature, e_divisor = line->e_slope + line->e_root;
+    double divisor = fabs(line->slope) + line->root;
+    if (chord)
+        return 2 * line->e_slope / curvature + rounding(distance);
+    if (line->height < 0 && line->slope <= 0)
+        return e_divisor / curvature + rounding(distance);
+    return (2 * line->e_height + distance * e_divisor) / larger(divisor - e_divisor, divisor / 4) +
+           rounding(distance);
+}
+
+/* Error of a distance along the ray to the surface, which the ray meets; INFINITY where float may take the
+ * ray to run along a plane. */
 static inline double distance_error(const struct packed_scene *scene, const struct ray *ray, int surface,
                                     double distance, struct ray_error error)
 {
+    if (is_giant(scene, surface)) {
+        struct giant giant = giant_of(scene, surface);
+        struct tracked_giant_line line = track_giant_line(&giant, ray->origin, ray->direction, error, true);
+        return giant_distance_error(&giant, &line, ray->surface == surface, distance);
+    }
     if (surface < scene->sphere_count) {
         struct tracked_approach approach =
             track_approach(scene->spheres[surface].center_radius, ray->origin, ray->direction, error);
-        return approach.e_along + approach.e_half_chord;
+        return approach.e_along + (ray->surface == surface ? approach.e_along : approach.e_half_chord);
     }
     layout_vec4 plane = scene->planes[surface - scene->sphere_count].normal_offset;
-    double slope = fabs((double)dot(vector_of(plane), ray->direction));
+    double slope = fabs((double)dot(vector_of(plane), ray->direction)) - error.direction - rounding(1);
     double size = length(ray->origin) + fabs((double)plane.w) + distance;
-    return (error.origin + distance * error.direction + rounding(size)) / slope;
+    return slope > 0 ? (error.origin + distance * error.direction + rounding(size)) / slope : INFINITY;
+}
+
+/* As sphere_margin(). */
+static inline double giant_margin(const struct packed_scene *scene, int i, const struct ray *ray,
+                                  struct ray_error error, double nearest_distance, double e_nearest)
+{
+    const bool own = ray->surface == i, holds_rays = !own && scene->spheres[i].tags.HOLDS_RAYS != 0;
+    struct giant giant = giant_of(scene, i);
+    struct tracked_giant_line line = track_giant_line(&giant, ray->origin, ray->direction, error, holds_rays);
+    real distance;
+    bool from_inside;
+    bool met = meet_giant(&giant, holds_rays, i, ray, &distance, &from_inside);
+    if (own && !met)
+        return INFINITY;
+    double margin = holds_rays ? margin_of(line.height, line.e_height) : INFINITY;
+    if (from_inside) /* certain to be met, at its far side */
+        return smaller(margin,
+                       margin_of(nearest_distance - (double)distance,
+                                 e_nearest + giant_distance_error(&giant, &line, own, (double)distance)));
+    struct conjunction before = conjunction_begin();
+    require_positive(&before, -line.slope, line.e_slope);
+    require_positive(&before, line.root_squared, line.e_root_squared);
+    /* as for planes: 2 height / divisor < nearest_distance */
+    double divisor = line.root - line.slope, e_divisor = line.e_slope + line.e_root;
+    require_positive(&before, nearest_distance * divisor - 2 * line.height,
+                     2 * line.e_height + nearest_distance * e_divisor + e_nearest * fabs(divisor));
+    return smaller(margin, conjunction_margin(&before));
 }
 
 /* Margin of a sphere's not being the nearest hit, which is at nearest_distance +- e_nearest. */
@@ -127,19 +192,20 @@ static inline double sphere_margin(const struct packed_scene *scene, int i, cons
                                    struct ray_error error, double nearest_distance, double e_nearest)
 {
     const struct PackedSphere *sphere = &scene->spheres[i];
-    if (ray->surface == i)
-        return INFINITY; /* certain either way */
+    if (is_giant(scene, i))
+        return giant_margin(scene, i, ray, error, nearest_distance, e_nearest);
     struct tracked_approach approach =
         track_approach(sphere->center_radius, ray->origin, ray->direction, error);
+    if (ray->surface == i) /* certain to be met, at its far side, or certain not to be */
+        return ray->inward
+                   ? margin_of(nearest_distance - 2 * approach.along, e_nearest + 2 * approach.e_along)
+                   : INFINITY;
     double margin = INFINITY;
     if (sphere->tags.HOLDS_RAYS != 0) {
         margin = inside_margin(sphere->center_radius, ray->origin, error.origin);
-        if (contains(sphere, ray->origin)) { /* certain to be met, at its far side */
-            double back = approach.along + approach.half_chord;
-            double behind =
-                fabs(nearest_distance - back) / (e_nearest + approach.e_along + approach.e_half_chord);
-            return smaller(margin, behind);
-        }
+        if (contains(sphere, ray->origin)) /* likewise */
+            return smaller(margin, margin_of(nearest_distance - approach.along - approach.half_chord,
+                                             e_nearest + approach.e_along + approach.e_half_chord));
     }
     struct conjunction met = conjunction_begin();
     require_positive(&met, approach.along, approach.e_along);
@@ -150,32 +216,40 @@ static inline double sphere_margin(const struct packed_scene *scene, int i, cons
     return smaller(margin, conjunction_margin(&met));
 }
 
+/* Whether the ray meets the side of a plane on which its height is positive, before the nearest distance. */
+static inline struct conjunction side_met(const struct PackedPlane *plane, double slope, double e_slope,
+                                          double height, double e_height, double nearest_distance,
+                                          double e_nearest)
+{
+    struct conjunction met = conjunction_begin();
+    require_positive(&met, -slope, e_slope);
+    if (plane->surface.tags.SURFACE_KIND == KIND_TRANSPARENT)
+        require_positive(&met, height, e_height); /* of opaque planes known */
+    /* height / -slope < nearest_distance, without dividing by a slope near 0 */
+    require_positive(&met, nearest_distance * -slope - height,
+                     e_height + nearest_distance * e_slope + e_nearest * fabs(slope));
+    return met;
+}
+
 static inline double plane_margin(const struct packed_scene *scene, int i, const struct ray *ray,
                                   struct ray_error error, double nearest_distance, double e_nearest)
 {
     const struct PackedPlane *plane = &scene->planes[i];
-    int surface = scene->sphere_count + i;
-    if (ray->surface == surface)
+    if (ray->surface == scene->sphere_count + i)
         return INFINITY;
     struct vec3 normal = vector_of(plane->normal_offset);
     double slope = (double)dot(normal, ray->direction);
     double height = (double)(dot(normal, ray->origin) - plane->normal_offset.w);
     double e_slope = error.direction + rounding(1);
     double e_height = error.origin + rounding(length(ray->origin) + fabs((double)plane->normal_offset.w));
-    if (plane->surface.tags.SURFACE_KIND != KIND_TRANSPARENT) {
-        height = larger(height, 0); /* known */
-    } else if (height < 0) {
-        height = -height;
-        slope = -slope;
-    }
-    struct conjunction met = conjunction_begin();
-    require_positive(&met, -slope, e_slope);
-    if (plane->surface.tags.SURFACE_KIND == KIND_TRANSPARENT)
-        require_positive(&met, height, e_height);
-    /* height / -slope < nearest_distance, without dividing by a slope near 0 */
-    require_positive(&met, nearest_distance * -slope - height,
-                     e_height + nearest_distance * e_slope + e_nearest * fabs(slope));
-    return conjunction_margin(&met);
+    bool opaque = plane->surface.tags.SURFACE_KIND != KIND_TRANSPARENT;
+    struct conjunction front = side_met(plane, slope, e_slope, opaque ? larger(height, 0) : height, e_height,
+                                        nearest_distance, e_nearest);
+    if (opaque || front.holds)
+        return conjunction_margin(&front);
+    struct conjunction back =
+        side_met(plane, -slope, e_slope, -height, e_height, nearest_distance, e_nearest);
+    return back.holds ? back.weakest : smaller(front.strongest_failure, back.strongest_failure);
 }
 
 /* As tree_line(), of what float makes of the line: the tree rules out what has a margin of `wanted` at least,
@@ -220,10 +294,9 @@ static inline double tree_margin(const struct packed_scene *scene, const struct 
     return margin;
 }
 
-/* Margin of the choice of the nearest hit (or of none). Where it is at least `wanted`, which is at most 1,
- * any such number. */
+/* Margin of the choice of the nearest hit (or of none). One of at least 1 may be larger with a tree. */
 static inline double hit_margin(const struct packed_scene *scene, const struct ray *ray,
-                                struct ray_error error, const struct hit *hit, double wanted)
+                                struct ray_error error, const struct hit *hit)
 {
     bool none = hit->surface == NO_SURFACE;
     double distance = none ? FARTHEST_HIT : (double)hit->distance;
@@ -232,77 +305,14 @@ static inline double hit_margin(const struct packed_scene *scene, const struct r
     for (int i = 0; i < tried_spheres(scene); ++i)
         margin = smaller(margin, choice_margin(scene, i, ray, error, hit, distance, e_distance));
     if (scene->tree)
-        margin = smaller(margin,
-                         tree_margin(scene, ray, error, hit, distance, e_distance, smaller(margin, wanted)));
+        margin =
+            smaller(margin, tree_margin(scene, ray, error, hit, distance, e_distance, smaller(margin, 1)));
     for (int i = 0; i < scene->plane_count; ++i) {
         bool nearest = scene->sphere_count + i == hit->surface;
         margin = smaller(margin, plane_margin(scene, i, ray, error, nearest ? FARTHEST_HIT : distance,
                                               nearest ? 0 : e_distance));
     }
     return margin;
-}
-
-/* Errors of the hit's point and normal. */
-struct hit_error {
-    double point, normal;
-};
-
-static inline struct hit_error track_hit(const struct packed_scene *scene, const struct ray *ray,
-                                         struct ray_error error, const struct hit *hit)
-{
-    double size = length(hit->point);
-    if (hit->surface >= scene->sphere_count)
-        return (struct hit_error){
-            .point = distance_error(scene, ray, hit->surface, (double)hit->distance, error) + rounding(size),
-        };
-    layout_vec4 sphere = scene->spheres[hit->surface].center_radius;
-    struct tracked_approach approach = track_approach(sphere, ray->origin, ray->direction, error);
-    double radius = (double)sphere.w;
-    double normal = approach.e_clearance / approach.half_chord + rounding(1);
-    return (struct hit_error){
-        .normal = normal,
-        .point = radius * normal + rounding(size + radius),
-    };
-}
-
-/* What follows for reflection and refraction. */
-struct dielectric_error {
-    double refracted_direction, reflectance;
-    double margin; /* of total reflection or not */
-};
-
-static inline double track_reflection(double e_direction, double e_normal)
-{
-    return e_direction + 2 * e_normal + rounding(2);
-}
-
-static inline struct dielectric_error track_refraction(double cos_in, double eta, double kappa,
-                                                       double e_direction, double e_normal)
-{
-    double e_cos_in = e_direction + e_normal + rounding(1);
-    double eta_cos = eta * cos_in;
-    double squared = kappa + eta_cos * eta_cos;
-    double e_squared = 2 * eta * eta_cos * e_cos_in + eta * eta * e_cos_in * e_cos_in +
-                       rounding(fabs(kappa) + eta_cos * eta_cos);
-    struct dielectric_error error = {.margin = fabs(squared) / e_squared};
-    if (squared <= 0)
-        return error;
-    double cos_out = sqrt(squared);
-    double e_cos_out = smaller(e_squared / cos_out, sqrt(e_squared));
-    double sum = eta_cos + cos_out, e_sum = eta * e_cos_in + e_cos_out;
-    double bend = fabs(kappa) / sum;
-    double e_bend = bend * (e_sum / sum) + rounding(bend);
-    error.refracted_direction = eta * e_direction + e_bend + bend * e_normal + rounding(eta + bend);
-
-    double r_s = bend / sum, e_r_s = r_s * (2 * e_sum / sum) + rounding(r_s);
-    double cosines = cos_in * cos_out, sines = eta * (1 - cos_in * cos_in);
-    double e_cosines = cos_in * e_cos_out + cos_out * e_cos_in + rounding(cosines);
-    double e_sines = 2 * eta_cos * e_cos_in + rounding(eta);
-    double ratio = fabs(cosines - sines) / (cosines + sines);
-    double e_ratio = (e_cosines + e_sines) * (1 + ratio) / (cosines + sines) + rounding(ratio);
-    error.reflectance = r_s * e_r_s * (1 + ratio * ratio) +
-                        r_s * r_s * (ratio * e_ratio + e_ratio * e_ratio) + rounding(r_s * r_s);
-    return error;
 }
 
 #endif

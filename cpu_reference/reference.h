@@ -31,13 +31,25 @@ void reference_render_double(const struct packed_scene *scene, struct reference_
 void reference_render_quad(const struct packed_scene *scene, struct reference_window window, int threads,
                            struct reference_picture *picture);
 
+/* What widens a pixel's bound most. */
+enum reference_cause {
+    CAUSE_ROUNDING,
+    CAUSE_HIT,        /* float may hit another surface, or none */
+    CAUSE_SHADOW,     /* a point of a light may be hidden in float and is not, or the other way round */
+    CAUSE_REFLECTION, /* likewise total reflection */
+    CAUSE_UNKNOWN,    /* any of these where the scene's radiance has no bound: the pixel's says nothing */
+    CAUSE_COUNT
+};
+
 /* The exact picture's pixel, and what float may make of it. */
 struct reference_explanation {
     double rgb[3];   /* linear radiance at high precision */
-    double bound[3]; /* on float's error, if it decides all as here */
-    double margin;   /* below 1, float may decide otherwise; see margin.h. At least 1, it may be larger with
-                      * scene->tree than without */
-    uint32_t signature; /* hash of every decision of the ray tree */
+    double bound[3]; /* on float's error, whatever it decides */
+    double margin;   /* of the closest decision: below 1, float may decide otherwise; see margin.h. At least
+                      * 1, it may be larger with scene->tree than without */
+    uint32_t
+        signature;  /* hash of every decision of the ray tree: float's, too, unless the margin is below 1 */
+    uint32_t cause; /* enum reference_cause, of the bound */
 };
 
 /* Traces the window in double or binary128 with the error analysis of NUMERICS.md: width * height

@@ -142,8 +142,17 @@ static struct ball ball_around(const struct item *items, size_t count, int *axis
     return ball_about(middle, items, count);
 }
 
-static void build(struct sphere_tree *tree, struct item *items, struct node node)
+struct building {
+    struct sphere_tree *tree;
+    struct item *items;
+    tree_progress *progress;
+    void *user;
+};
+
+static void build(const struct building *building, struct node node)
 {
+    struct sphere_tree *tree = building->tree;
+    struct item *items = building->items;
     const uint32_t first = first_place(tree, node), end = end_place(tree, node);
     int axis = 0;
     tree->nodes[node.number] = ball_around(items + first, end - first, &axis);
@@ -155,8 +164,12 @@ static void build(struct sphere_tree *tree, struct item *items, struct node node
     const struct node left = child(node, 0), right = child(node, 1);
     find_middle(items + first, end - first, end_place(tree, left) - first, axis);
 #pragma omp task if (end - first > SPHERES_A_TASK)
-    build(tree, items, left);
-    build(tree, items, right);
+    build(building, left);
+    build(building, right);
+    if (building->progress && end - first <= SPHERES_A_TASK && 2 * (end - first) > SPHERES_A_TASK) {
+#pragma omp critical(tree_progress)
+        building->progress(building->user, end - first);
+    }
 }
 
 static struct item *copy_items(const struct PackedSphere *spheres, int first, int end)
@@ -169,7 +182,8 @@ static struct item *copy_items(const struct PackedSphere *spheres, int first, in
     return items;
 }
 
-struct sphere_tree *sphere_tree_create(const struct PackedSphere *spheres, int first, int end, int threads)
+struct sphere_tree *sphere_tree_create(const struct PackedSphere *spheres, int first, int end, int threads,
+                                       tree_progress *progress, void *user)
 {
     struct sphere_tree *tree = calloc(1, sizeof *tree);
     struct item *items = copy_items(spheres, first, end);
@@ -181,9 +195,10 @@ struct sphere_tree *sphere_tree_create(const struct PackedSphere *spheres, int f
         tree->order = calloc(tree->count, sizeof *tree->order);
     }
     if (tree && items && tree->nodes && tree->order) {
+        const struct building building = {tree, items, progress, user};
 #pragma omp parallel num_threads(threads)
 #pragma omp single
-        build(tree, items, (struct node){1, 0});
+        build(&building, (struct node){1, 0});
     } else {
         sphere_tree_destroy(&tree);
     }

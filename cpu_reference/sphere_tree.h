@@ -11,9 +11,14 @@
 
 struct sphere_tree;
 
+/* Is told how many spheres more have found their place, by one thread at a time. */
+typedef void tree_progress(void *user, uint32_t spheres);
+
 /* Of spheres first to end - 1, one at least, on so many threads; 12 to 20 bytes a sphere, and as many again
- * while it is built. NULL without memory; otherwise the caller frees it with sphere_tree_destroy(). */
-struct sphere_tree *sphere_tree_create(const struct PackedSphere *spheres, int first, int end, int threads);
+ * while it is built. progress may be NULL. NULL without memory; otherwise the caller frees it with
+ * sphere_tree_destroy(). */
+struct sphere_tree *sphere_tree_create(const struct PackedSphere *spheres, int first, int end, int threads,
+                                       tree_progress *progress, void *user);
 void sphere_tree_destroy(struct sphere_tree **tree);
 
 struct tree_vector {

@@ -66,8 +66,8 @@ static bool may_be_left_out(const struct sample *sample, real weight, real open)
 {
     const layout_vec4 *truncation = &sample->scene->view.truncation;
     real allowance = (real)truncation->ALLOWANCE, room = sample->room;
-    bool order_can_be_kept = sample->charge <= allowance;
-    if (allowance < 0 || weight > room || (order_can_be_kept && charged(sample, weight) > allowance))
+    bool too_late = sample->charge > allowance; /* to keep the order */
+    if (allowance < 0 || !(weight <= room) || !(too_late || charged(sample, weight) <= allowance))
         return false;
     return root_of(weight) * open * open <= room * (room * (real)truncation->SPENDING);
 }

@@ -138,8 +138,7 @@ int place_of(int surface, int which)
 // Of two at the same distance.
 bool comes_before(int sphere, Hit looped)
 {
-    int order = sphere_word(sphere, SPHERE_ORDER);
-    return search.sphere >= 0 ? sphere < search.sphere : looped.surface >= 0 && order < looped.file_order;
+    return search.sphere >= 0 ? sphere < search.sphere : looped.surface >= 0 && sphere < looped.others_before;
 }
 
 // A ray that runs inside its sphere meets it after a whole chord.
@@ -256,7 +255,7 @@ void search_nearest(Ray ray, inout Hit nearest)
     bool own = ray.surface == SPHERES + search.sphere;
     bool inside = own || (SPHERES_HOLD_RAYS && (word & HOLDS_RAYS_FLAG) != 0u && lies_inside(to_center, real(shape.w)));
     take(true, nearest, search.distance, SPHERES + search.sphere, inside, shape,
-         surfaces[sphere_word(search.sphere, SPHERE_SURFACE)], sphere_word(search.sphere, SPHERE_ORDER));
+         surfaces[sphere_word(search.sphere, SPHERE_SURFACE)], 0);
     nearest.center_offset = approach.center_offset;
     nearest.half_chord = half_chord_of(approach);
 }

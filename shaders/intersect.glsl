@@ -44,8 +44,10 @@ struct Hit {
     float oren_nayar_b;
     int kind;
     int file_order;
+    int others_before; // see OTHERS_BEFORE
     real3 center_offset; // sphere: see Approach
     real half_chord;
+    real curvature; // of giants; of others 0
 };
 
 // Of surfaces at the same distance the first of the scene file counts.
@@ -67,6 +69,8 @@ void take(bool closer, inout Hit nearest, real distance, int surface, bool from_
     nearest.oren_nayar_b = closer ? material.more_parameters.OREN_NAYAR_B : nearest.oren_nayar_b;
     nearest.kind = closer ? material.tags.SURFACE_KIND : nearest.kind;
     nearest.file_order = closer ? file_order : nearest.file_order;
+    nearest.others_before = closer ? material.tags.OTHERS_BEFORE : nearest.others_before;
+    nearest.curvature = closer ? real(0) : nearest.curvature;
 }
 
 // Whether any ray can run inside sphere i.
@@ -151,18 +155,26 @@ Hit no_hit()
     none.oren_nayar_b = 0.0;
     none.kind = KIND_MATTE;
     none.file_order = 0;
+    none.others_before = 0;
     none.center_offset = real3(0);
     none.half_chord = real(0);
+    none.curvature = real(0);
     return none;
 }
 
+#include "giant.glsl"
 #include "hierarchy.glsl"
 
 // With a hierarchy, if search.stage is SEARCH_DONE.
 Hit nearest_hit(Ray ray)
 {
     Hit nearest = no_hit();
-    FOR_EACH_OBJECT(i, SPHERES, meet_sphere(ray, i, nearest);)
+    FOR_EACH_OBJECT(i, SPHERES, {
+        if (is_giant(i))
+            meet_giant(ray, i, nearest);
+        else
+            meet_sphere(ray, i, nearest);
+    })
     FOR_EACH_OBJECT(i, PLANES, meet_plane(ray, i, nearest);)
     if (HIERARCHY)
         search_nearest(ray, nearest);
@@ -183,6 +195,13 @@ void hit_point(Ray ray, Hit hit, out real3 point, out real3 facing_normal)
     bool sphere = hit.surface < ALL_SPHERES;
     point = sphere ? on_sphere : on_plane;
     exact real3 normal = sphere ? sphere_normal : shape;
+    if (GIANTS != 0u) {
+        exact real3 gradient = giant_gradient(hit.shape, hit.curvature, position);
+        exact real3 on_giant = position - giant_height(hit.shape, hit.curvature, position) * gradient;
+        exact real3 giant_normal = unit(gradient);
+        point = hit.curvature > real(0) ? on_giant : point;
+        normal = hit.curvature > real(0) ? giant_normal : normal;
+    }
     facing_normal = hit.from_inside ? -normal : normal;
 }
 
@@ -232,7 +251,12 @@ bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real dista
     bool shadowed = false;
     note_no_blocker();
     FOR_EACH_OBJECT(i, SPHERES, {
-        shadowed = sphere_shadows(i, point, surface, inward, to_light, distance, light) || shadowed;
+        bool shadows;
+        if (is_giant(i))
+            shadows = giant_shadows(i, point, surface, inward, to_light, distance, light);
+        else
+            shadows = sphere_shadows(i, point, surface, inward, to_light, distance, light);
+        shadowed = shadows || shadowed;
         note_blocker(i, shadowed);
         if (!PROCESSOR && shadowed) // lavapipe only masks what is skipped
             return true;

@@ -14,10 +14,11 @@ struct packed_scene {
                          * other; the others are so many that the renderer needs a structure to find those on
                          * a ray's way */
     int surface_count;
+    unsigned giants; /* a bit for each of the first 32 spheres: it is stored and met as a giant */
     struct PackedSphere *spheres;
     struct PackedSurface
         *surfaces; /* of spheres: one for each that is looped over, then those that others share */
-    struct hierarchy *hierarchy;    /* of the spheres that are not looped over; NULL: there are none */
+    struct hierarchy *hierarchy; /* of the spheres that are not looped over; NULL: there are none */
     struct PackedPlane *planes;
     struct PackedPointLight *point_lights;
     struct PackedQuadLight *quad_lights;

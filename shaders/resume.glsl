@@ -1,7 +1,7 @@
 // What a dispatch leaves when it has used up its turns: the invocation's state, with which the next one goes on, and its
 // stack, with its path on top.
 
-layout(std430, set = 0, binding = 11) buffer Outcome { uint unfinished; }; // not 0: some invocation is
+layout(std430, set = 0, binding = 11) buffer Outcome { uint unfinished; }; // pixels
 
 Work no_work()
 {
@@ -79,7 +79,7 @@ void save(Work work)
     saved_words[saved_place(1)] = uint(work.pending) << 7 | work.row << 2 | uint(work.fresh) << 1 | uint(work.busy);
     if (is_done(work))
         return;
-    atomicOr(unfinished, 1u);
+    atomicAdd(unfinished, uint(bitCount(work.later)) + uint(work.busy));
     save_path(work.pending, work.path);
     while (GLASS && STACK_IN_REGISTERS && work.pending > 0) { // lavapipe: a loop, lest it does all under a mask
         pop(work.path, work.pending);

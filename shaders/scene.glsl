@@ -38,6 +38,7 @@ layout(constant_id = 32) const bool HOISTED = true; // see hoist_scene()
 layout(constant_id = 33) const bool PRIMARY_RAYS_FIRST = true; // see render_primary_rays()
 layout(constant_id = 34) const int ALL_SPHERES = 0; // those that are not looped over, too; see hierarchy.glsl
 layout(constant_id = 35) const uint MOST_STEPS = 0u; // of all searches in a dispatch
+layout(constant_id = 36) const uint GIANTS = 0u; // a bit for each sphere that is looped over: it is stored as a giant
 
 const bool SECONDARY_RAYS = (MIRRORS || GLASS) && MAX_BOUNCES > 0;
 

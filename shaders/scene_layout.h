@@ -62,8 +62,7 @@ typedef struct PackedSurface PackedSurface;
 #define PLACE_IN_PAIRS 0
 #define PLACE_IN_STREAM 1
 #define SPHERE_SURFACE 2 /* index into the scene's surfaces */
-#define SPHERE_ORDER 3   /* FILE_ORDER */
-#define SPHERE_WORDS 4
+#define SPHERE_WORDS 3
 
 /* The slots of vectors and of words in which an invocation keeps its work between dispatches; behind them is
  * its stack. */
@@ -132,19 +131,25 @@ struct EventHead {
 #define ETA_EXITING z    /* for one that exits it */
 #define KAPPA_EXITING w
 #define OREN_NAYAR_B x /* PackedSurface.more_parameters of matte */
+#define CURVATURE y    /* PackedSurface.more_parameters of giants: 1 / radius */
 #define SURFACE_KIND x /* PackedSurface.tags: KIND_ */
 #define FILE_ORDER                                                                                           \
     y /* of spheres and of planes' surfaces: place in the scene file, where each row of a file of            \
        * spheres counts; the first of equally near surfaces is hit */
 #define CASTS_SHADOWS z /* of planes: 0 where a plane cannot stand between a light and what is seen */
-#define SURFACE x       /* of spheres: index into the scene's surfaces */
-#define HOLDS_RAYS z    /* of spheres: a ray or a shading point may lie inside, other than on the surface */
-#define HOLDS_LIGHTS w  /* of spheres: so may a point of a light */
-#define SHARED_A x      /* PackedView.matte: Oren-Nayar's A and B, where all matte surfaces share them */
+#define OTHERS_BEFORE                                                                                        \
+    w /* of planes' surfaces and of those of spheres that are looped over: how many other spheres come       \
+         before */
+#define SURFACE x      /* of spheres: index into the scene's surfaces */
+#define HOLDS_RAYS z   /* of spheres: a ray or a shading point may lie inside, other than on the surface */
+#define HOLDS_LIGHTS w /* of spheres: so may a point of a light */
+#define SHARED_A x     /* PackedView.matte: Oren-Nayar's A and B, where all matte surfaces share them */
 #define SHARED_B y
 #define RADIANCE_BOUND x /* PackedView.truncation: no ray brings more radiance than this */
-#define ALLOWANCE y      /* what a sample may be charged for rays left out; negative: none is left out */
-#define SPENDING z       /* how readily that is spent, see NUMERICS.md */
+#define UNBOUNDED                                                                                            \
+    1267650600228229401496703205376.0 /* 2^100 as RADIANCE_BOUND: a light touches a matte surface */
+#define ALLOWANCE y /* what a sample may be charged for rays left out; negative: none is left out */
+#define SPENDING z  /* how readily that is spent, see NUMERICS.md */
 
 struct PackedSurface {
     LAYOUT_VEC4 parameters;
@@ -152,6 +157,9 @@ struct PackedSurface {
     LAYOUT_IVEC4 tags;
 };
 
+/* A giant, which has a surface of its own, has instead the height of a point x over its surface,
+ * gradient . x + curvature / 2 |x|^2 - offset: the gradient in xyz, the offset in w. With centre c and radius
+ * r that is (|x - c|^2 - r^2) / (2 r), the distance from the surface for points near it. */
 struct PackedSphere {
     LAYOUT_VEC4 center_radius;
     LAYOUT_IVEC4 tags;

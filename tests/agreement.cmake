@@ -9,9 +9,6 @@ foreach(scene IN LISTS figure_scenes)
     cmake_path(GET scene STEM name)
     add_agreement(${name}/97x61 ${scene} --size 97x61)
 endforeach()
-if(VKWHITTED_TESTS STREQUAL "compiler")
-    return()
-endif()
 
 add_agreement(figure_2b/60x40/samples_4_light_samples_7 ${PROJECT_SOURCE_DIR}/scenes/figure_2b.yaml
               --size 60x40 --samples 4 --light-samples 7)

@@ -100,14 +100,19 @@ function(add_swiftshader_test name)
 endfunction()
 add_swiftshader_test(devices devices)
 set_tests_properties(elsewhere/swiftshader/devices PROPERTIES PASS_REGULAR_EXPRESSION "\\* 0  SwiftShader")
-set(swiftshader_figures ${figure_scenes})
-if(NOT VKWHITTED_SLOW_TESTS) # the others hold nothing that these do not
-    list(FILTER swiftshader_figures INCLUDE REGEX "/figure_4\\.yaml$")
+if(VKWHITTED_SLOW_TESTS) # they hold nothing that the others do not
+    foreach(scene IN LISTS figure_scenes)
+        cmake_path(GET scene STEM name)
+        add_swiftshader_test(${name}/150x100 check --size 150x100 ${scene})
+    endforeach()
 endif()
-foreach(scene IN LISTS swiftshader_figures)
-    cmake_path(GET scene STEM name)
-    add_swiftshader_test(${name}/150x100 check --size 150x100 ${scene})
-endforeach()
+# Tiles of lavapipe, SwiftShader and the reference make one picture.
+add_test(NAME elsewhere/swiftshader/join COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/join.sh drivers)
+set_tests_properties(
+    elsewhere/swiftshader/join
+    PROPERTIES LABELS elsewhere TIMEOUT 900
+               ENVIRONMENT "VKWHITTED=$<TARGET_FILE:vkwhitted>;SOURCE_DIR=${PROJECT_SOURCE_DIR};\
+SWIFTSHADER=${VKWHITTED_SWIFTSHADER_ICD}")
 set(swiftshader_scenes ${hard_scenes})
 if(NOT VKWHITTED_SLOW_TESTS)
     list(FILTER swiftshader_scenes INCLUDE REGEX

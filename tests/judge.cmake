@@ -31,7 +31,7 @@ foreach(scene IN LISTS figure_scenes hard_scenes)
     add_judge(${name}/97x61/bounces_16 ${scene} double --size 97x61 --max-bounces 16 --backend cpu)
 endforeach()
 
-# What the README says of the figures' errors.
+# What the README says of figure_4's errors.
 foreach(scene IN LISTS figure_scenes)
     cmake_path(GET scene STEM name)
     add_test(NAME judge/${name}/600x400/relative_error

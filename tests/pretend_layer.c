@@ -1,10 +1,16 @@
 /* A Vulkan layer that makes a device look like another, and fail.
  *
- *   PRETEND_GPU=1              a discrete graphics card: no memory that the host caches, 64 KiB of uniforms,
- * 128 bytes of push constants, subgroups of 1 without operations, another driver PRETEND_FAIL=CALL:N:CODE the
- * N-th call of vkQueueSubmit, vkGetFenceStatus, vkAllocateMemory or vkCreateComputePipelines returns CODE
- * instead; once PRETEND_AFTER=FILE         calls count from when there is such a file PRETEND_LOG=FILE gets a
- * line "X Y" for each dispatch: its groups */
+ * PRETEND_GPU=1: a discrete graphics card: no memory that the host caches, 64 KiB of uniforms, 128 bytes of
+ * push constants, subgroups of 1 without operations, another driver.
+ *
+ * PRETEND_TEXELS=N: texel buffers have at most so many elements.
+ *
+ * PRETEND_FAIL=CALL:N:CODE: the N-th call of vkQueueSubmit, vkGetFenceStatus, vkAllocateMemory or
+ * vkCreateComputePipelines returns CODE instead; once.
+ *
+ * PRETEND_AFTER=FILE: calls count from when there is such a file.
+ *
+ * PRETEND_LOG=FILE: gets a line "X Y" for each dispatch: its groups. */
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,6 +58,11 @@ static bool pretends_gpu(void)
 
 static void pretend_properties(VkPhysicalDeviceProperties *properties)
 {
+    const char *texels = getenv("PRETEND_TEXELS");
+    if (texels)
+        properties->limits.maxTexelBufferElements = (uint32_t)strtoul(texels, NULL, 10);
+    if (!pretends_gpu())
+        return;
     properties->deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
     snprintf(properties->deviceName, sizeof properties->deviceName, "pretended graphics card");
     properties->limits.maxUniformBufferRange = 65536;
@@ -63,18 +74,15 @@ static VKAPI_ATTR void VKAPI_CALL get_properties(VkPhysicalDevice device,
                                                  VkPhysicalDeviceProperties *properties)
 {
     next.get_properties(device, properties);
-    if (pretends_gpu())
-        pretend_properties(properties);
+    pretend_properties(properties);
 }
 
 static VKAPI_ATTR void VKAPI_CALL get_properties_2(VkPhysicalDevice device,
                                                    VkPhysicalDeviceProperties2 *properties)
 {
     next.get_properties_2(device, properties);
-    if (!pretends_gpu())
-        return;
     pretend_properties(&properties->properties);
-    for (VkBaseOutStructure *more = properties->pNext; more; more = more->pNext)
+    for (VkBaseOutStructure *more = properties->pNext; more && pretends_gpu(); more = more->pNext)
         if (more->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES) {
             ((VkPhysicalDeviceSubgroupProperties *)more)->subgroupSize = 1;
             ((VkPhysicalDeviceSubgroupProperties *)more)->supportedOperations = 0;

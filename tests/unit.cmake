@@ -10,11 +10,14 @@ endfunction()
 
 add_unit_test(bench)
 target_link_options(unit_bench PRIVATE -Wl,--wrap=calloc,--wrap=malloc) # to have them fail
+add_unit_test(building)
+target_link_options(unit_building PRIVATE -Wl,--wrap=clock_ms) # to have time fly
 add_unit_test(camera_motion)
 add_unit_test(compare)
 add_unit_test(fit)
 add_unit_test(float_controls)
 add_unit_test(image)
+add_unit_test(judge)
 add_unit_test(many_spheres)
 target_link_options(unit_many_spheres PRIVATE -Wl,--wrap=calloc,--wrap=malloc) # to have them fail
 add_unit_test(npy)
@@ -26,8 +29,7 @@ add_unit_test(progress)
 add_unit_test(scene_file)
 add_unit_test(inputs)
 add_unit_test(compiler)
-target_compile_definitions(unit_compiler PRIVATE SHADER_DEBUG_INFO=$<BOOL:${VKWHITTED_SHADER_DEBUG_INFO}>
-                                                  OPTIMIZED_SHADERS=$<BOOL:${VKWHITTED_OPTIMIZE_SHADERS}>)
+target_compile_definitions(unit_compiler PRIVATE SHADER_DEBUG_INFO=$<BOOL:${VKWHITTED_SHADER_DEBUG_INFO}>)
 add_unit_test(srgb)
 add_unit_test(warnings)
 add_unit_test(text_file)
@@ -42,17 +44,3 @@ foreach(module IN LISTS device_modules)
     add_unit_test(${module})
     set_tests_properties(unit/${module} PROPERTIES LABELS "unit;device" TIMEOUT 600)
 endforeach()
-if(CMAKE_C_COMPILER_ID MATCHES Clang AND NOT VKWHITTED_SANITIZE)
-    # The host library is compiled a second time, for libFuzzer's counters.
-    file(GLOB host_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/host/base/*.c ${PROJECT_SOURCE_DIR}/host/scene/*.c)
-    add_executable(fuzz_scene_file fuzz_scene_file.c ${host_sources})
-    target_include_directories(fuzz_scene_file PRIVATE ${PROJECT_SOURCE_DIR}/host)
-    target_compile_options(fuzz_scene_file PRIVATE -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all)
-    target_link_options(fuzz_scene_file PRIVATE -fsanitize=fuzzer,address,undefined)
-    target_link_libraries(fuzz_scene_file PRIVATE scene_layout OpenMP::OpenMP_C PkgConfig::jansson PkgConfig::libfyaml m)
-    file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/fuzz_corpus)
-    add_test(NAME unit/fuzz_scene_file/20000_runs
-             COMMAND fuzz_scene_file -runs=20000 -seed=1 -close_fd_mask=2
-                     ${CMAKE_CURRENT_BINARY_DIR}/fuzz_corpus ${PROJECT_SOURCE_DIR}/scenes)
-    set_tests_properties(unit/fuzz_scene_file/20000_runs PROPERTIES LABELS unit TIMEOUT 300)
-endif()

@@ -314,7 +314,8 @@ static enum status truth_and_error(void)
     struct bench_error error;
     static float black[12 * 8 * 3];
     progress_start(&progress, "", 10, true);
-    enum status status = ground_truth_create(&glass, glass_picture, TRUTH_EXACT, 1e4, &progress, 10, &truth);
+    enum status status =
+        ground_truth_create(&glass, NULL, glass_picture, TRUTH_EXACT, 1e4, &progress, 10, &truth);
     if (status != STATUS_DONE) {
         truth_emptied &= !truth.pixels.rgb;
         return status;

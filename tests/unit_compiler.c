@@ -1,5 +1,5 @@
 /* Shaders compiled in the program: the same SPIR-V as the build's, messages that lead to the file and line
- * that is wrong, and a glslang that may crash. */
+ * that is wrong, rules for what may stand in one, and a glslang that may crash. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,8 +12,8 @@
 #include <sys/stat.h>
 
 #include "test_folder.h"
-#include "tracer/tracer.h"
-#include "watch/compiler.h"
+#include "tracer/shader_folder.h"
+#include "tracer/shader_rules.h"
 
 static struct compilation compile(const char *path, const char *const *options, enum status expected)
 {
@@ -31,25 +31,33 @@ static const char *const no_options[] = {NULL};
 static void same_as_the_build(void **state)
 {
     (void)state;
-    for (int variant = WHITTED_EXACT; variant <= WHITTED_FAST; variant += WHITTED_FAST - WHITTED_EXACT)
+    static const struct shader_choice choices[] = {
+        {WHITTED_EXACT, false}, {WHITTED_FAST, true}, {WHITTED_CORRECTED_EVENTS, true}};
+    for (int i = 0; i < 3; ++i) {
+        struct spirv built = whitted_spirv(choices[i].variant, choices[i].scene_in_storage);
+        const bool optimised =
+            choices[i].variant < WHITTED_EXACT_EVENTS; /* shader_build() never takes the time */
+        const char *options[1 + MOST_DEFINES] = {optimised ? "-Os" : "-DUNOPTIMISED"};
+        shader_defines(choices[i], options + 1);
+        struct compilation compilation = compile(SOURCE_DIR "/shaders/whitted.comp", options, STATUS_DONE);
+        assert_string_equal(compilation.messages, "");
+#if !SHADER_DEBUG_INFO /* which holds paths */
+        assert_int_equal(compilation.size, built.size);
+        assert_memory_equal(compilation.words, built.words, built.size);
+#endif
+        compilation_destroy(&compilation);
+    }
+}
+
+static void the_builds_obey(void **state)
+{
+    (void)state;
+    for (int variant = 0; variant < WHITTED_VARIANTS; ++variant)
         for (int storage = 0; storage < 2; ++storage) {
             const struct shader_choice choice = {(enum whitted_variant)variant, storage};
-            struct spirv built = whitted_spirv(choice.variant, storage);
-            const char *options[8] = {OPTIMIZED_SHADERS ? "-Os"
-                                                        : "-DUNOPTIMIZED"}; /* watch never takes the time */
-            const char *const *defines = whitted_defines(choice.variant, storage);
-            for (int i = 0; defines[i]; ++i)
-                options[i + 1] = defines[i];
-            struct compilation compilation =
-                compile(SOURCE_DIR "/shaders/whitted.comp", options, STATUS_DONE);
-            char problem[128];
-            assert_true(tracer_provides(built, choice, problem));
-            assert_string_equal(compilation.messages, "");
-#if !SHADER_DEBUG_INFO /* which holds paths */
-            assert_int_equal(compilation.size, built.size);
-            assert_memory_equal(compilation.words, built.words, built.size);
-#endif
-            compilation_destroy(&compilation);
+            struct shader_problem problem;
+            if (!shader_obeys(whitted_spirv(choice.variant, storage), choice, &problem))
+                fail_msg("variant %d, storage %d: %s", variant, storage, problem.text);
         }
 }
 
@@ -260,7 +268,8 @@ static void buffers_that_are_not_there(void **state)
     };
     (void)state;
     for (int i = 0; i < 5; ++i) {
-        char text[512], problem[128];
+        char text[512];
+        struct shader_problem problem;
         snprintf(
             text, sizeof text,
             "#version 460\nlayout(local_size_x = 1) in;\nlayout(std430, %s Out { float x[]; };\n"
@@ -269,11 +278,62 @@ static void buffers_that_are_not_there(void **state)
         write_file("main.comp", text);
         struct compilation compilation = compile("./main.comp", no_options, STATUS_DONE);
         const struct spirv code = {compilation.words, compilation.size};
-        bool provided = tracer_provides(code, (struct shader_choice){WHITTED_EXACT, false}, problem);
-        assert_int_equal(provided, i == 4);
-        assert_int_equal(tracer_provides(code, (struct shader_choice){WHITTED_EXACT, true}, problem), i >= 3);
+        assert_int_equal(shader_obeys(code, (struct shader_choice){WHITTED_EXACT, false}, &problem), i == 4);
+        assert_int_equal(shader_obeys(code, (struct shader_choice){WHITTED_EXACT, true}, &problem), i >= 3);
+        assert_int_equal(shader_obeys(code, (struct shader_choice){WHITTED_EXACT_EVENTS, false}, &problem),
+                         i == 4 || i == 0);
         compilation_destroy(&compilation);
     }
+}
+
+/* Operations are looked for in the second file. STATUS_DONE, or where they are refused STATUS_REFUSED. */
+static enum status build_with(const char *operations, enum whitted_variant variant)
+{
+    char text[512];
+    struct compilation compilation;
+    snprintf(text, sizeof text, "void use(float a, float b, vec3 v, int i)\n{\n    %s;\n}\n", operations);
+    write_file("more.glsl", text);
+    const enum status status =
+        shader_build("./main.comp", (struct shader_choice){variant, false}, &compilation);
+    assert_true((compilation.words != NULL) == (status == STATUS_DONE));
+    if (status != STATUS_DONE &&
+        strncmp(compilation.messages, "./more.glsl:3: error: ", strlen("./more.glsl:3: error: ")) != 0)
+        fail_msg("%s: %s", operations, compilation.messages);
+    compilation_destroy(&compilation);
+    return status;
+}
+
+static void operations_that_are_not_exact(void **state)
+{
+    static const char *const operations[] = {
+        "a + b",
+        "a - b",
+        "a * b",
+        "a / b",
+        "-a",
+        "v * a",
+        "mat3(a) * v",
+        "dot(v, v)",
+        "mod(a, b)",
+        "mix(a, b, a)",
+        "normalize(v)",
+        "min(a, b)",
+        "outerProduct(v, v)",
+    };
+    (void)state;
+    write_file("main.comp", "#version 460\n#extension GL_GOOGLE_include_directive : require\n"
+                            "layout(local_size_x = 1) in;\n"
+                            "layout(std430, set = 0, binding = 8) buffer Out { float x[]; };\n"
+                            "#include \"more.glsl\"\n"
+                            "void main() { use(x[0], x[1], vec3(x[2]), int(x[3])); }\n");
+    for (size_t i = 0; i < sizeof operations / sizeof *operations; ++i)
+        if (build_with(operations[i], WHITTED_EXACT) != STATUS_REFUSED)
+            fail_msg("%s is not refused", operations[i]);
+    const char *all_exact =
+        "precise float c = -a * b + a / b; sqrt(a); abs(a); sign(a); a < b ? a : b; i * 3;\n"
+        "min(i, 3); findMSB(i); float(i); floatBitsToInt(a); isnan(a)";
+    assert_int_equal(build_with(all_exact, WHITTED_EXACT), STATUS_DONE);
+    assert_int_equal(build_with("normalize(v) * a", WHITTED_FAST), STATUS_DONE);
 }
 
 #define TEST(function) cmocka_unit_test_setup_teardown(function, test_folder_setup, test_folder_teardown)
@@ -281,9 +341,9 @@ static void buffers_that_are_not_there(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(same_as_the_build),          TEST(messages_lead_to_the_file), TEST(files_to_follow),
-        TEST(no_shader_at_all),           TEST(glslang_crashes),           TEST(glslang_does_not_end),
-        TEST(buffers_that_are_not_there),
+        TEST(same_as_the_build),         TEST(the_builds_obey),      TEST(operations_that_are_not_exact),
+        TEST(messages_lead_to_the_file), TEST(files_to_follow),      TEST(no_shader_at_all),
+        TEST(glslang_crashes),           TEST(glslang_does_not_end), TEST(buffers_that_are_not_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

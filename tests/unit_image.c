@@ -13,8 +13,9 @@
 #include <openexr.h>
 #include <png.h>
 
-#include "image/image.h"
+#include "image/exr_input.h"
 #include "image/srgb.h"
+#include "image/tile.h"
 #include "test_folder.h"
 
 static const char long_scene[] = "scenes/a folder with a name that goes on/and on/picture.yaml";
@@ -263,6 +264,90 @@ static void test_exr(void **state)
     }
 }
 
+/* Bounds are a part of their own, and there where one is not 0; rows that do not lie together are parts. */
+static void test_exr_parts(void **state)
+{
+    (void)state;
+    const struct window window = {3, 20, 5, 7};
+    struct image image = random_picture(window.width, window.height);
+    struct image_metadata placed = metadata;
+    placed.picture_width = 100;
+    placed.picture_height = 80;
+    placed.window = window;
+    placed.strips = (struct strips){3, 9}; /* rows 20 to 22, 32 to 34, 44 */
+    image.truncation = calloc((size_t)window.width * window.height, sizeof *image.truncation);
+    assert_non_null(image.truncation);
+    for (int bounds = 0; bounds < 2; ++bounds) {
+        image.truncation[6] = bounds ? 0.25f : 0;
+        assert_int_equal(image_write(&image, "a.exr", &placed), STATUS_DONE);
+        struct exr_input *input;
+        assert_int_equal(exr_input_open("a.exr", &input), STATUS_DONE);
+        assert_int_equal(exr_input_parts(input), bounds ? 6 : 3);
+        for (int part = 0; part < 3 + 3 * bounds; ++part) {
+            static const char *const colors[] = {"R", "G", "B"}, *const bound[] = {"truncation_bound"};
+            const struct window strip = window_strip(window, placed.strips, (unsigned)(part % 3) * 3);
+            struct window data, display;
+            assert_true(exr_input_windows(input, part, &data, &display));
+            assert_memory_equal(&data, &strip, sizeof data);
+            assert_memory_equal(&display, (&(struct window){0, 0, 100, 80}), sizeof display);
+            for (unsigned y = 0; y < strip.height; ++y) {
+                const size_t first = ((size_t)(part % 3) * 3 + y) * window.width;
+                const float *row;
+                assert_int_equal(exr_input_read(input, part, strip.y + y, part < 3 ? colors : bound,
+                                                part < 3 ? 3 : 1, &row),
+                                 STATUS_DONE);
+                assert_memory_equal(row, part < 3 ? image.rgb + 3 * first : image.truncation + first,
+                                    window.width * (part < 3 ? 3 : 1) * sizeof *row);
+            }
+        }
+        exr_input_close(&input);
+    }
+    image_destroy(&image);
+}
+
+/* Every row of a picture is in one tile, and there in the place that the tile says; the tiles are even. */
+static void test_tiles(void **state)
+{
+    (void)state;
+    const struct window whole = {7, 11, 5, 1080};
+    for (unsigned count = 1; count <= whole.height; count += count < 70 ? 1 : 101) {
+        unsigned rows = 0, least = UINT_MAX, most = 0;
+        for (unsigned number = 1; number <= count; ++number) {
+            const struct tile tile = {number, count, whole};
+            struct window window;
+            struct strips strips;
+            char text[TILE_TEXT];
+            struct tile parsed;
+            assert_true(tile_rows(&tile, &window, &strips));
+            for (unsigned y = 0, at; y < window.height; ++y) {
+                const unsigned picture_row = window_strip(window, strips, y).y;
+                assert_int_equal(tile_of_row(&tile, picture_row - whole.y, &at), number);
+                assert_int_equal(at, y);
+            }
+            rows += window.height;
+            least = window.height < least ? window.height : least;
+            most = window.height > most ? window.height : most;
+            tile_print(&tile, text);
+            assert_true(tile_parse(text, &parsed));
+            assert_memory_equal(&parsed, &tile, sizeof tile);
+        }
+        assert_int_equal(rows, whole.height);
+        if (count <= 67) /* 16 rows each and more */
+            assert_true(16 * (most - least) <= most);
+    }
+    const char *const wrong[] = {"",
+                                 "1/2",
+                                 "0/2 of 0,0,1,2",
+                                 "3/2 of 0,0,1,2",
+                                 "1/2 of 0,0,1,2 ",
+                                 "1/3 of 0,0,1,2",
+                                 "1/2 of 0,0,0,2",
+                                 "1/2 of 0,0,1,99999999",
+                                 "+1/2 of 0,0,1,2"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i)
+        assert_false(tile_parse(wrong[i], &(struct tile){0}));
+}
+
 static void test_exr_leaves_out_what_is_unknown(void **state)
 {
     (void)state;
@@ -362,6 +447,8 @@ int main(void)
         TEST_IN_FOLDER(test_check),
         TEST_IN_FOLDER(test_png),
         TEST_IN_FOLDER(test_exr),
+        TEST_IN_FOLDER(test_exr_parts),
+        cmocka_unit_test(test_tiles),
         TEST_IN_FOLDER(test_exr_leaves_out_what_is_unknown),
         TEST_IN_FOLDER(test_refusal_by_the_library),
         TEST_IN_FOLDER(test_pfm),

@@ -13,13 +13,22 @@
 
 #include "failing_memory.h"
 #include "pixel/ray_tree.h"
+#include "scene/hierarchy.h"
 #include "test_render.h"
 #include "tracer/reference_scene.h"
 
 enum { WIDTH = 36, HEIGHT = 24, PIXELS = WIDTH * HEIGHT, CLOUD = 1500 };
 static const struct reference_window whole = {0, 0, WIDTH, HEIGHT};
 
-/* What is packed keeps a surface for each sphere. */
+static void build_hierarchy(struct packed_scene *packed)
+{
+    packed->looped_spheres = 0;
+    packed->hierarchy = calloc(1, sizeof *packed->hierarchy);
+    assert_int_equal(hierarchy_build(packed->spheres, 0, (uint32_t)packed->sphere_count, packed->hierarchy),
+                     STATUS_DONE);
+    packed->hierarchy->owners = 1;
+}
+
 static struct packed_scene pack(const struct scene *scene)
 {
     struct picture_settings settings = test_settings(scene);
@@ -28,7 +37,6 @@ static struct packed_scene pack(const struct scene *scene)
     settings.height = HEIGHT;
     settings.light_samples = 2;
     assert_int_equal(pack_scene(scene, &settings, &packed), STATUS_DONE);
-    packed.looped_spheres = 0;
     return packed;
 }
 
@@ -99,6 +107,8 @@ static void check_scene(const char *name, struct scene scene, void (*change)(str
     struct packed_scene packed = pack(&scene);
     if (change)
         change(&packed);
+    if (!packed.hierarchy && packed.sphere_count > 0)
+        build_hierarchy(&packed); /* each sphere has kept its surface */
     check_picture(name, &packed);
     check_explanations(name, &packed);
     check_events(name, &packed);
@@ -160,41 +170,52 @@ static void clouds(void **state)
 static void without_memory(void **state)
 {
     struct scene scene = test_read("scenes/figure_4.yaml");
-    struct packed_scene packed = pack(&scene);
-    struct reference_scene reference;
+    struct packed_scene packed = pack(&scene), reference;
     enum status status = STATUS_UNABLE;
     int failures = 0;
     (void)state;
+    build_hierarchy(&packed);
     for (; status != STATUS_DONE; ++failures) {
         calls_to_failure = failures;
-        status = reference_scene_create(&packed, 1, &reference);
+        status = reference_scene(&packed, 1, &reference);
         bool failed = calls_to_failure < 0;
         calls_to_failure = -1;
         assert_int_equal(status, failed ? STATUS_UNABLE : STATUS_DONE);
-        assert_true(failed == !reference.built && reference.packed.tree == reference.built);
+        assert_true(failed == !reference.tree);
     }
     assert_true(failures > 1);
-    reference_scene_destroy(&reference);
     pack_destroy(&packed);
     scene_destroy(&scene);
 }
 
-/* There is none of spheres that are looped over, and one that is there is used. */
+/* There is no tree of spheres that are looped over; and one for all packed scenes with the same spheres. */
 static void tree_where_needed(void **state)
 {
-    struct scene scene = test_read("scenes/figure_4.yaml");
-    struct packed_scene packed = pack(&scene);
-    struct reference_scene first, second;
+    struct scene scene = test_read("scenes/hard/camera_in_cloud.yaml");
+    struct picture_settings settings = test_settings(&scene);
+    struct packed_scene packed, moved, other, first, second;
     (void)state;
-    assert_int_equal(reference_scene_create(&packed, 1, &first), STATUS_DONE);
-    assert_int_equal(reference_scene_create(&first.packed, 1, &second), STATUS_DONE);
-    assert_true(first.built && !second.built && second.packed.tree == first.built);
-    reference_scene_destroy(&second);
-    reference_scene_destroy(&first);
-    packed.looped_spheres = packed.sphere_count;
-    assert_int_equal(reference_scene_create(&packed, 1, &first), STATUS_DONE);
-    assert_true(!first.built && !first.packed.tree);
-    reference_scene_destroy(&first);
+    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    scene.camera.fov_y_degrees /= 2;
+    scene.background[0] = 0.25;
+    assert_int_equal(pack_scene_beside(&packed, &scene, &settings, &moved), STATUS_DONE);
+    assert_true(moved.hierarchy == packed.hierarchy && packed.hierarchy->owners == 2);
+    scene.objects[0].spheres.rows[7][3] *= 1.5F;
+    assert_int_equal(pack_scene_beside(&packed, &scene, &settings, &other), STATUS_DONE);
+    assert_ptr_not_equal(other.hierarchy, packed.hierarchy);
+    assert_int_equal(reference_scene(&packed, 1, &first), STATUS_DONE);
+    assert_non_null(first.tree);
+    pack_destroy(&packed);
+    assert_int_equal(reference_scene(&moved, 1, &second), STATUS_DONE);
+    assert_ptr_equal(second.tree, first.tree);
+    pack_destroy(&moved);
+    pack_destroy(&other);
+    scene_destroy(&scene);
+
+    scene = test_read("scenes/figure_4.yaml");
+    packed = pack(&scene);
+    assert_int_equal(reference_scene(&packed, 1, &first), STATUS_DONE);
+    assert_null(first.tree);
     pack_destroy(&packed);
     scene_destroy(&scene);
 }

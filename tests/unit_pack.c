@@ -10,6 +10,7 @@
 #include <math.h>
 
 #include "scene/scene.h"
+#include "scene/vector.h"
 #include "test_folder.h"
 #include "test_render.h"
 
@@ -76,6 +77,9 @@ static void check_same(const struct packed_scene *a, const struct packed_scene *
 {
     assert_int_equal(a->sphere_count, b->sphere_count);
     assert_int_equal(a->plane_count, b->plane_count);
+    assert_int_equal(a->giants, b->giants);
+    assert_int_equal(a->surface_count, b->surface_count);
+    assert_memory_equal(a->surfaces, b->surfaces, (size_t)a->surface_count * sizeof *a->surfaces);
     assert_int_equal(a->point_light_count, b->point_light_count);
     assert_int_equal(a->quad_light_count, b->quad_light_count);
     assert_memory_equal(&a->view, &b->view, sizeof a->view);
@@ -90,7 +94,8 @@ static void scaling_by_powers_of_two(void **state)
 {
     static const char *const names[] = {"scenes/figure_2b.yaml",         "scenes/figure_4.yaml",
                                         "tests/scenes/ten_lights.yaml",  "tests/scenes/oblique_planes.yaml",
-                                        "tests/scenes/under_glass.yaml", "tests/scenes/ties.yaml"};
+                                        "tests/scenes/under_glass.yaml", "tests/scenes/ties.yaml",
+                                        "scenes/hard/lake.yaml",         "tests/scenes/earth.yaml"};
     static const int exponents[] = {1, -1, 20, -20};
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
@@ -219,10 +224,76 @@ static void hollow_spheres(void **state)
     } expected[] = {{0, 0}, {1, 0}, {0, 0}, {1, 0}, {0, 0}, {0, 1}, {0, 1}, {1, 0}, {0, 0}};
     assert_int_equal(packed.sphere_count, sizeof expected / sizeof *expected);
     for (int i = 0; i < packed.sphere_count; ++i) {
-        assert_int_equal(packed.spheres[i].tags.HOLDS_RAYS, expected[i].rays);
+        assert_int_equal(packed.spheres[i].tags.HOLDS_RAYS != 0, expected[i].rays);
         assert_int_equal(packed.spheres[i].tags.HOLDS_LIGHTS, expected[i].lights);
     }
     pack_destroy(&packed);
+}
+
+static struct packed_scene pack_ball(struct dvec3 center, double radius)
+{
+    char text[256];
+    snprintf(text, sizeof text,
+             "objects: [{ name: A, type: sphere, center: [%.17g, %.17g, %.17g], radius: %.17g, material: "
+             "Glass }]\n"
+             "lights: []\n",
+             center.x, center.y, center.z, radius);
+    return pack(text);
+}
+
+static bool is_giant_below(double depth, double radius)
+{
+    struct packed_scene packed = pack_ball((struct dvec3){0, -depth - radius, 0}, radius);
+    bool giant = packed.giants == 1;
+    assert_true(giant ? packed.view.position.z == -0.75F : fabsf(packed.view.position.z) < 0.125F);
+    pack_destroy(&packed);
+    return giant;
+}
+
+/* The camera has coordinates up to 6 and is at 2 and more over the surface; the scene's extent is the
+ * camera's where the ball is a giant. */
+static void choice_of_giants(void **state)
+{
+    (void)state;
+    assert_false(is_giant_below(0, 47.9));
+    assert_true(is_giant_below(0, 48.1));
+    assert_true(is_giant_below(0, 1e14));
+    assert_false(is_giant_below(6, 64));
+    assert_true(is_giant_below(6, 70));
+}
+
+/* Whether the height of the point over the packed giant, in metres, is that over the ball, but for the
+ * rounding of gradient, offset and curvature to float, and for what doubles know of the ball. */
+static bool is_near(const struct packed_scene *packed, struct dvec3 center, double radius, struct dvec3 point)
+{
+    const double scale = (double)packed->view.position.z / -6, half_ulp = 0x1p-24;
+    const layout_vec4 shape = packed->spheres[0].center_radius;
+    const double curvature = (double)packed->surfaces[0].more_parameters.CURVATURE;
+    const struct dvec3 scaled = dvec3_scale(scale, point), gradient = dvec3_of_vec4(shape);
+    const double linear = dvec3_dot(gradient, scaled), bend = curvature / 2 * dvec3_dot(scaled, scaled);
+    const double height = (linear + bend - (double)shape.w) / scale;
+    const double distance = dvec3_distance(point, center) - radius;
+    const double rounding = (fabs(gradient.x * scaled.x) + fabs(gradient.y * scaled.y) +
+                             fabs(gradient.z * scaled.z) + bend + fabs((double)shape.w)) /
+                            scale * half_ulp;
+    return fabs(height - distance * (1 + distance / (2 * radius))) <= rounding + 4 * 0x1p-53 * radius;
+}
+
+static void packed_giants_are_where_they_are(void **state)
+{
+    (void)state;
+    srand48(1);
+    for (int i = 0; i < 1000; ++i) {
+        const struct dvec3 way = {drand48() - 0.5, i % 4 ? drand48() - 0.5 : 0, i % 4 ? drand48() - 0.5 : 0};
+        const double radius = pow(10, 2 + 6 * drand48()), height = 6 * drand48() - 3;
+        const struct dvec3 center = dvec3_scale(height - radius, dvec3_unit(way));
+        struct packed_scene packed = pack_ball(center, radius);
+        assert_int_equal(packed.giants, 1);
+        for (int k = 0; k < 10; ++k)
+            assert_true(is_near(&packed, center, radius,
+                                (struct dvec3){10 * drand48() - 5, 10 * drand48() - 5, 10 * drand48() - 5}));
+        pack_destroy(&packed);
+    }
 }
 
 static void check_message(const char *objects_and_lights, enum status expected, int lines,
@@ -280,6 +351,7 @@ int main(void)
         cmocka_unit_test(scaling_by_powers_of_two), cmocka_unit_test(planes_face_the_camera),
         cmocka_unit_test(coincident_objects),       cmocka_unit_test(lights_behind_planes),
         cmocka_unit_test(hollow_spheres),           cmocka_unit_test(lights_too_bright),
+        cmocka_unit_test(choice_of_giants),         cmocka_unit_test(packed_giants_are_where_they_are),
         cmocka_unit_test(directions_of_any_length), cmocka_unit_test(lights_behind_planes_of_large_scenes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,6 +11,8 @@
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "base/interrupt.h"
 #include "npy_file.h"
@@ -139,7 +141,7 @@ static void order_and_surfaces(void **state)
     pack_destroy(&packed);
 }
 
-static void check_giants(float radius, float other, int expected)
+static void check_large(float radius, float other, int expected)
 {
     fill_rows(30, 0.25F);
     rows[3][3] = radius;
@@ -161,23 +163,23 @@ static void check_giants(float radius, float other, int expected)
     pack_destroy(&packed);
 }
 
-/* The spheres stand in a row from -0.25 to 29.25, so that one is a giant from a diameter of 14.75 on. */
-static void giants(void **state)
+/* The spheres stand in a row from -0.25 to 29.25, so that one is large from a diameter of 14.75 on. */
+static void large_spheres(void **state)
 {
     (void)state;
-    check_giants(0.25F, 0.25F, 0);
-    check_giants(7.3F, 0.25F, 0);
-    check_giants(7.4F, 0.25F, 1);
-    check_giants(1e5F, 0.25F, 1);
-    check_giants(1e5F, 1e6F, 2);
-    check_giants(7.4F, 7.5F, 2);
-    check_giants(1e5F, 7.3F, 1); /* it is no giant, and so part of the box: from -0.25 to 29.25 still */
+    check_large(0.25F, 0.25F, 0);
+    check_large(7.3F, 0.25F, 0);
+    check_large(7.4F, 0.25F, 1);
+    check_large(1e5F, 0.25F, 1);
+    check_large(1e5F, 1e6F, 2);
+    check_large(7.4F, 7.5F, 2);
+    check_large(1e5F, 7.3F, 1); /* it is not large, and so part of the box: from -0.25 to 29.25 still */
     fill_rows(30, 0.25F);
     for (size_t i = 0; i < 20; ++i) /* the first four are left to the hierarchy */
         rows[i][3] = 1e5F + (float)i;
     npy_write("rows.npy", 30, rows);
     struct packed_scene packed = pack(CLOUD, 0);
-    assert_int_equal(packed.looped_spheres, MOST_GIANTS);
+    assert_int_equal(packed.looped_spheres, MOST_LARGE);
     for (int i = 0; i < 30; ++i)
         assert_int_equal(packed.spheres[i].tags.FILE_ORDER, i < 16 ? i + 4 : i < 20 ? i - 16 : i);
     pack_destroy(&packed);
@@ -206,7 +208,7 @@ static double uniform(double from, double to)
     return from + (to - from) * drand48();
 }
 
-/* Small ones and large ones, now and then a giant; some touch one before from within or without. */
+/* Small ones and large ones, now and then a larger one; some touch one before from within or without. */
 static void scatter(float place[4], size_t before)
 {
     for (int c = 0; c < 3; ++c)
@@ -247,7 +249,7 @@ static void tags_of_random_scenes(void **state)
             const bool holds =
                 body_distance(body_packed(&packed, i), dvec3_of_vec4(packed.view.position)) < 0 ||
                 (glass && reaches_in(&packed, i));
-            if (tags.HOLDS_RAYS != holds || tags.HOLDS_LIGHTS != has_light(&packed, i))
+            if ((tags.HOLDS_RAYS != 0) != holds || tags.HOLDS_LIGHTS != has_light(&packed, i))
                 fail_msg("seed %d, sphere %d: tags %d, %d", seed, i, tags.HOLDS_RAYS, tags.HOLDS_LIGHTS);
             holders += holds;
             empty += glass && !holds;
@@ -274,10 +276,49 @@ static void escapes(void **state)
     }
 }
 
-/* For good: the flag stays. So this is the last test. */
+/* What is packed beside another camera's scene is as packed anew, but shares its hierarchy. */
+static void moved_camera(void **state)
+{
+    (void)state;
+    const char *text =
+        HEAD "  - { name: Glass, type: spheres, file: glass.npy, material: Glass }\n"
+             "  - { name: Wall, type: plane, point: [0, 0, 8], normal: [0, 0, 1], material: Matte }\n"
+             "  - { name: Matte, type: spheres, file: matte.npy, material: Matte }\n";
+    int changed = 0;
+    for (int seed = 0; seed < 10; ++seed) {
+        struct scene scene;
+        struct packed_scene first, beside, anew;
+        srand48(seed);
+        for (size_t i = 0; i < 200; ++i)
+            scatter(rows[i], i);
+        npy_write("glass.npy", 150, rows);
+        npy_write("matte.npy", 50, rows + 150);
+        assert_int_equal(scene_read_text("a.yaml", text, strlen(text), &scene), STATUS_DONE);
+        const struct picture_settings settings = test_settings(&scene);
+        assert_int_equal(pack_scene(&scene, &settings, &first), STATUS_DONE);
+        for (int c = 0; c < 3; ++c) /* to within a sphere, in half of the cases behind the wall */
+            scene.camera.position[c] = (double)rows[seed][c] + (c == 2 && seed % 2 ? 30 : 0);
+        assert_int_equal(pack_scene_beside(&first, &scene, &settings, &beside), STATUS_DONE);
+        assert_int_equal(pack_scene(&scene, &settings, &anew), STATUS_DONE);
+        const int last = first.sphere_count - 1; /* is no giant */
+        const bool same_scale = first.spheres[last].center_radius.w == anew.spheres[last].center_radius.w;
+        assert_true((beside.hierarchy == first.hierarchy) == same_scale);
+        const size_t size = (size_t)anew.sphere_count * sizeof *anew.spheres;
+        assert_memory_equal(beside.spheres, anew.spheres, size);
+        assert_memory_equal(beside.planes, anew.planes, sizeof *anew.planes);
+        changed += memcmp(beside.spheres, first.spheres, size) != 0;
+        pack_destroy(&first);
+        assert_true(beside.hierarchy->owners == 1 && beside.hierarchy->nodes[0].left > 0);
+        pack_destroy(&beside);
+        pack_destroy(&anew);
+        scene_destroy(&scene);
+    }
+    assert_true(changed > 2);
+}
+
+/* Ctrl-C ends reading and packing, and with them the process. */
 static void interrupted(void **state)
 {
-    struct packed_scene packed;
     struct scene scene;
     const char *text = HEAD CLOUD;
     (void)state;
@@ -285,21 +326,33 @@ static void interrupted(void **state)
     npy_write("rows.npy", 100, rows);
     assert_int_equal(scene_read_text("a.yaml", text, strlen(text), &scene), STATUS_DONE);
     struct picture_settings settings = test_settings(&scene);
-    interrupt_catch();
-    raise(SIGINT);
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_INTERRUPTED);
-    assert_true(!packed.spheres && !packed.hierarchy);
+    for (int packing = 0; packing < 2; ++packing) {
+        int how = 0;
+        const pid_t child = fork();
+        assert_true(child >= 0);
+        if (child == 0) {
+            struct packed_scene packed;
+            interrupt_catch();
+            raise(SIGINT);
+            if (packing)
+                pack_scene(&scene, &settings, &packed);
+            else
+                scene_read_text("a.yaml", text, strlen(text), &scene);
+            _exit(0);
+        }
+        assert_int_equal(waitpid(child, &how, 0), child);
+        assert_true(WIFSIGNALED(how) && WTERMSIG(how) == SIGINT);
+    }
     scene_destroy(&scene);
-    assert_int_equal(scene_read_text("a.yaml", text, strlen(text), &scene), STATUS_INTERRUPTED);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(few_and_many),          cmocka_unit_test(rows_as_objects),
-        cmocka_unit_test(order_and_surfaces),    cmocka_unit_test(giants),
-        cmocka_unit_test(tags_of_random_scenes), cmocka_unit_test(escapes),
-        cmocka_unit_test(interrupted),
+        cmocka_unit_test(few_and_many),  cmocka_unit_test(rows_as_objects),
+        cmocka_unit_test(moved_camera),  cmocka_unit_test(order_and_surfaces),
+        cmocka_unit_test(large_spheres), cmocka_unit_test(tags_of_random_scenes),
+        cmocka_unit_test(escapes),       cmocka_unit_test(interrupted),
     };
     return cmocka_run_group_tests(tests, test_folder_setup, test_folder_teardown);
 }

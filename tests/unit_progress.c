@@ -1,4 +1,4 @@
-/* A message takes the progress bar's place. */
+/* A message takes the progress bar's place; what takes minutes says so. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -60,8 +60,60 @@ static void test_message_wipes_the_bar(void **state)
     close(terminal);
 }
 
+/* What the progress says on standard error, which is no terminal, after so many seconds. */
+static void say(uint64_t begun, uint64_t done, double seconds, bool quiet, char text[256])
+{
+    int ends[2], standard_error = dup(STDERR_FILENO);
+    assert_int_equal(pipe(ends), 0);
+    dup2(ends[1], STDERR_FILENO);
+    struct progress progress;
+    progress_start(&progress, "testing", 1000, quiet);
+    progress.start_ms -= seconds * 1000;
+    progress_begin(&progress, begun);
+    progress_advance(&progress, done);
+    progress_advance(&progress, 0);
+    progress_end(&progress);
+    dup2(standard_error, STDERR_FILENO);
+    close(ends[1]);
+    ssize_t length = read(ends[0], text, 255);
+    assert_true(length >= 0);
+    text[length] = '\0';
+    close(ends[0]);
+    close(standard_error);
+}
+
+static void test_minutes_are_announced_once(void **state)
+{
+    (void)state;
+    const struct {
+        uint64_t begun, done;
+        double seconds;
+        bool quiet;
+        const char *expected;
+    } cases[] = {
+        {0, 1, 1.2, false, "vkwhitted: testing takes about 20 minutes\n"},
+        {0, 1, 0.9, false, ""}, /* too early to say */
+        {0, 100, 5.9, false, ""},
+        {0, 100, 6.1, false, "vkwhitted: testing takes about 61 s\n"},
+        {0, 1, 20, false, "vkwhitted: testing takes about 6 hours\n"},
+        {0, 1, 1.2, true, ""},
+        {0, 0, 5, false, ""},
+        {10, 0, 1.2, false,
+         "vkwhitted: testing takes more than 2 minutes\n"}, /* nothing done, little begun */
+        {100, 0, 1.2, false, ""},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        char text[256];
+        say(cases[i].begun, cases[i].done, cases[i].seconds, cases[i].quiet, text);
+        assert_string_equal(text, cases[i].expected);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_message_wipes_the_bar)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_message_wipes_the_bar),
+        cmocka_unit_test(test_minutes_are_announced_once),
+    };
     return cmocka_run_group_tests_name("progress", tests, NULL, NULL);
 }

@@ -1,13 +1,16 @@
 #include "base/interrupt.h"
 
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 
-static volatile sig_atomic_t caught_signal;
+static volatile sig_atomic_t caught_signal, ends_process;
 
 static void catch_signal(int number)
 {
     caught_signal = number;
+    if (ends_process)
+        raise(number); /* its default action again, once this returns */
 }
 
 void interrupt_catch(void)
@@ -16,6 +19,14 @@ void interrupt_catch(void)
                                      .sa_flags = (int)(SA_RESTART | SA_RESETHAND)};
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+}
+
+void interrupt_ends_process(bool at_once)
+{
+    fflush(stdout);
+    ends_process = at_once;
+    if (at_once && caught_signal)
+        interrupt_die();
 }
 
 bool interrupt_requested(void)

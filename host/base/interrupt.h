@@ -8,6 +8,10 @@
 void interrupt_catch(void);
 bool interrupt_requested(void);
 
+/* From now on the first one ends the process where it is, or not any more: for work that may take long and
+ * leaves nothing behind, neither half a file nor a device at work. */
+void interrupt_ends_process(bool at_once);
+
 /* Ends the process as the caught signal would have. */
 _Noreturn void interrupt_die(void);
 

@@ -9,6 +9,12 @@
 enum { BAR_WIDTH = 40 };
 
 static atomic_bool visible;
+static bool allowed = true;
+
+void progress_allow(bool any)
+{
+    allowed = any;
+}
 
 void progress_start(struct progress *progress, const char *label, uint64_t total, bool quiet)
 {
@@ -16,21 +22,68 @@ void progress_start(struct progress *progress, const char *label, uint64_t total
         .label = label,
         .total = total,
         .start_ms = clock_ms(),
-        .enabled = !quiet && isatty(STDERR_FILENO),
+        .enabled = !quiet && allowed && isatty(STDERR_FILENO),
+        .announces = !quiet && allowed,
     };
+}
+
+static const char *print_duration(double seconds, char text[static 32])
+{
+    static const struct {
+        const char *unit;
+        double seconds;
+    } units[] = {{"s", 1}, {"minutes", 60}, {"hours", 3600}, {"days", 86400}};
+    int i = 0;
+    while (i < 3 && seconds >= 2 * units[i + 1].seconds)
+        ++i;
+    snprintf(text, 32, "%.0f %s", seconds / units[i].seconds, units[i].unit);
+    return text;
+}
+
+/* Says once that it will take more than a minute, as soon as that can be known. */
+static void announce(struct progress *progress, double elapsed_ms)
+{
+    const bool guesses = progress->done > 0;
+    const double share = (double)(guesses ? progress->done : progress->begun) / (double)progress->total;
+    const double seconds = share > 0 ? elapsed_ms / share / 1000 : 0;
+    if (!progress->announces || elapsed_ms < 1000 || !(guesses || seconds > 60))
+        return;
+    progress->announces = false;
+    char text[32];
+    if (seconds <= 60)
+        return;
+    flockfile(stderr); /* not by status.h, which wipes the bar itself */
+    progress_wipe();
+    fprintf(stderr, "vkwhitted: %s takes %s %s\n", progress->label, guesses ? "about" : "more than",
+            print_duration(seconds, text));
+    funlockfile(stderr);
+}
+
+void progress_begin(struct progress *progress, uint64_t amount)
+{
+    progress->begun += amount;
 }
 
 void progress_advance(struct progress *progress, uint64_t amount)
 {
     progress->done = amount < progress->total - progress->done ? progress->done + amount : progress->total;
     double elapsed_ms = clock_ms() - progress->start_ms;
+    announce(progress, elapsed_ms);
+    if (progress->done - progress->moved >= progress->total / 100) {
+        progress->moved = progress->done;
+        progress->moved_ms = elapsed_ms;
+    }
     if (!progress->enabled || elapsed_ms < 500 || progress->done == 0)
         return;
+    char text[32];
     double fraction = (double)progress->done / (double)progress->total;
+    double left_ms = elapsed_ms * (1 - fraction) / fraction;
+    if (elapsed_ms - progress->moved_ms > left_ms && progress->done < progress->total)
+        left_ms = elapsed_ms - progress->moved_ms; /* it has come to what takes longer than the rest */
     int filled = (int)(fraction * (double)BAR_WIDTH);
-    fprintf(stderr, "\r%s [%.*s%*s] %3.0f %%  %.0f s left \033[K", progress->label, filled,
+    fprintf(stderr, "\r%s [%.*s%*s] %3.0f %%  %s left \033[K", progress->label, filled,
             "########################################", BAR_WIDTH - filled, "", fraction * 100,
-            elapsed_ms / 1000 * (1 - fraction) / fraction);
+            print_duration(left_ms / 1000, text));
     fflush(stderr);
     visible = true;
 }

@@ -4,16 +4,27 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* A bar on standard error, if that is a terminal and the work takes more than half a second. */
+/* A bar on standard error, if that is a terminal and the work takes more than half a second; and a notice,
+ * wherever it is, if after a second the work looks like taking more than a minute. */
 struct progress {
     const char *label;
-    uint64_t done, total;
-    double start_ms;
-    bool enabled;
+    uint64_t done, begun, total;
+    double start_ms, moved_ms; /* the bar has moved by a hundredth since */
+    uint64_t moved;            /* what was done then */
+    bool enabled, announces;
 };
 
-/* label must outlive the progress. Quiet (-q) shows nothing. */
+/* Whether any bar is shown: not with -q. */
+void progress_allow(bool any);
+
+/* label must outlive the progress. Quiet, it shows nothing. */
 void progress_start(struct progress *progress, const char *label, uint64_t total, bool quiet);
+
+/* So much is under way: what is done after some time is a share of that at most. For work of which none is
+ * done for long. */
+void progress_begin(struct progress *progress, uint64_t amount);
+
+/* So much more is done, or 0: the time that is left is then as long as nothing has moved, at least. */
 void progress_advance(struct progress *progress, uint64_t amount);
 
 /* Wipes the bar; the next advance shows it again. Messages (status.h) do so before they appear. */

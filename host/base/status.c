@@ -25,4 +25,5 @@ void log_message(int least_verbosity, const char *severity, const char *format, 
 void log_set_verbosity(int verbosity)
 {
     log_verbosity = verbosity;
+    progress_allow(verbosity >= 0);
 }

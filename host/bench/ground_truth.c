@@ -107,17 +107,16 @@ enum status grid_render(const struct packed_scene *packed, enum precision precis
                         double work, struct progress *progress, unsigned share, struct grid_pixels *pixels)
 {
     double secondary, work_a_pixel;
-    struct reference_scene scene;
+    struct packed_scene scene;
     *pixels = (struct grid_pixels){0};
-    enum status status = reference_scene_create(packed, 0, &scene);
+    enum status status = reference_scene(packed, 0, &scene);
     if (status == STATUS_DONE)
-        status = estimate(&scene.packed, &secondary, &work_a_pixel);
+        status = estimate(&scene, &secondary, &work_a_pixel);
     if (status == STATUS_DONE) {
         pixels->grid =
             pixel_grid_fitting((unsigned)packed->width, (unsigned)packed->height, work / work_a_pixel);
-        status = render(&scene.packed, precision, explained, progress, share, pixels);
+        status = render(&scene, precision, explained, progress, share, pixels);
     }
-    reference_scene_destroy(&scene);
     return status;
 }
 
@@ -147,18 +146,15 @@ static enum status find_bounces(const struct packed_scene *scene, unsigned *most
 
 enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *most)
 {
-    struct reference_scene scene;
+    struct packed_scene scene;
     *most = (unsigned)packed->max_bounces;
-    enum status status = reference_scene_create(packed, 0, &scene);
-    if (status == STATUS_DONE)
-        status = find_bounces(&scene.packed, most);
-    reference_scene_destroy(&scene);
-    return status;
+    enum status status = reference_scene(packed, 0, &scene);
+    return status == STATUS_DONE ? find_bounces(&scene, most) : status;
 }
 
-enum status ground_truth_create(const struct scene *scene, struct picture_settings settings,
-                                enum truth_kind kind, double work, struct progress *progress, unsigned share,
-                                struct ground_truth *truth)
+enum status ground_truth_create(const struct scene *scene, const struct packed_scene *other,
+                                struct picture_settings settings, enum truth_kind kind, double work,
+                                struct progress *progress, unsigned share, struct ground_truth *truth)
 {
     struct packed_scene packed;
     char what[100], where[100] = "every pixel";
@@ -174,7 +170,7 @@ enum status ground_truth_create(const struct scene *scene, struct picture_settin
     } else {
         snprintf(what, sizeof what, "quad (binary128) with %u bounces", settings.max_bounces);
     }
-    enum status status = pack_scene(scene, &settings, &packed);
+    enum status status = pack_scene_beside(other, scene, &settings, &packed);
     if (status != STATUS_DONE)
         return status;
     status = grid_render(&packed, kind == TRUTH_EXACT ? PRECISION_QUAD : PRECISION_DOUBLE, false, work,

@@ -57,10 +57,11 @@ enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *mo
  * light samples; or in double with converged pixel samples. */
 enum truth_kind { TRUTH_EXACT, TRUTH_OF_LIGHTS, TRUTH_OF_SAMPLES };
 
-/* Renders the truth as grid_render() does; so is what happens on failure. */
-enum status ground_truth_create(const struct scene *scene, struct picture_settings settings,
-                                enum truth_kind kind, double work, struct progress *progress, unsigned share,
-                                struct ground_truth *truth);
+/* Renders the truth as grid_render() does; so is what happens on failure. packed: the scene with other
+ * settings, or NULL. */
+enum status ground_truth_create(const struct scene *scene, const struct packed_scene *packed,
+                                struct picture_settings settings, enum truth_kind kind, double work,
+                                struct progress *progress, unsigned share, struct ground_truth *truth);
 
 /* How far a picture is from the truth, at the truth's pixels. Infinite where a value is not finite. A pixel's
  * error is the largest over its channels; a relative error is |value - truth| / max(|truth|, 1e-3). */

@@ -43,18 +43,20 @@ static enum status start_point(struct bench *bench, struct bench_point *point)
     point->plan.scene = &point->packed;
     point->plan.window = (struct window){0, 0, picture->width, picture->height};
     point->plan.quiet = true;
+    point->plan.shaders = bench->job.plan.shaders;
     image_destroy(&bench->image);
     enum status status = image_create(picture->width, picture->height, &bench->image);
     if (status == STATUS_DONE && on_device && is_double)
         status = image_widen(&bench->image);
     double start = clock_ms();
     if (status == STATUS_DONE)
-        status = pack_scene(&bench->job.scene, picture, &point->packed);
+        status = pack_scene_beside(&bench->job.packed, &bench->job.scene, picture, &point->packed);
     if (status == STATUS_DONE && on_device)
-        status =
-            tracer_create(bench->options->context, &point->packed,
-                          &(struct tracer_options){.double_precision = is_double, .fast = point->plan.fast},
-                          &point->tracer);
+        status = tracer_create(bench->options->context, &point->packed,
+                               &(struct tracer_options){.double_precision = is_double,
+                                                        .fast = point->plan.fast,
+                                                        .shaders = point->plan.shaders},
+                               &point->tracer);
     point->setup_ms = clock_ms() - start;
     if (status == STATUS_DONE)
         status = run_point(point, &bench->image, &point->first_ms);

@@ -14,7 +14,7 @@ struct view {
     struct srgb_encoder encoder;
 };
 
-static void encode_row(const void *context, unsigned y, uint8_t *rgb)
+static enum status encode_row(const void *context, unsigned y, uint8_t *rgb)
 {
     const struct view *view = context;
     size_t values = (size_t)view->image->width * 3, start = y * values;
@@ -22,6 +22,7 @@ static void encode_row(const void *context, unsigned y, uint8_t *rgb)
         srgb_encode(&view->encoder, view->image->rgb + start, values, rgb);
     for (size_t i = 0; i < values && view->reference; i += 3)
         heatmap_color(view->image->rgb + start + i, view->reference->rgb + start + i, rgb + i);
+    return STATUS_DONE;
 }
 
 /* RFC 4648, as a JSON text. A byte of 0 stands behind the bytes. NULL without memory. */

@@ -43,12 +43,12 @@ static enum status find_truths(struct bench *bench)
     const struct bench_effort *effort = bench->effort;
     struct picture_settings deep = bench->picture;
     deep.max_bounces = bench->deepest;
-    enum status status =
-        ground_truth_create(&bench->job.scene, deep, bench->has_quad_lights ? TRUTH_OF_LIGHTS : TRUTH_EXACT,
-                            bench->has_quad_lights ? effort->truth.with_double : effort->truth.quad,
-                            &bench->progress, TRUTH_SHARE, &bench->truth);
+    enum status status = ground_truth_create(
+        &bench->job.scene, &bench->job.packed, deep, bench->has_quad_lights ? TRUTH_OF_LIGHTS : TRUTH_EXACT,
+        bench->has_quad_lights ? effort->truth.with_double : effort->truth.quad, &bench->progress,
+        TRUTH_SHARE, &bench->truth);
     if (status == STATUS_DONE)
-        status = ground_truth_create(&bench->job.scene, bench->picture, TRUTH_OF_SAMPLES,
+        status = ground_truth_create(&bench->job.scene, &bench->job.packed, bench->picture, TRUTH_OF_SAMPLES,
                                      effort->truth.with_double, &bench->progress, FILTERED_SHARE,
                                      &bench->filtered);
     return status;

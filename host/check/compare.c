@@ -78,7 +78,10 @@ enum status image_compare(const struct image *a, const struct image *b, const st
             note(&disagreeing, error, i);
         }
         comparison->bit_differing += !pixel_same;
-        comparison->differing += !pixel_agrees;
+        if (!pixel_agrees && comparison->differing++ == 0) {
+            comparison->first_x = (unsigned)(pixel % a->width);
+            comparison->first_y = (unsigned)(pixel / a->width);
+        }
     }
     const struct worst *worst = comparison->differing > 0 ? &disagreeing : &unequal;
     comparison->width = a->width;

@@ -21,6 +21,7 @@ struct comparison {
      * the pictures are the same bits. */
     double max_error;
     unsigned x, y, channel;
+    unsigned first_x, first_y; /* the first pixel that does not agree, row by row; 0 where all agree */
 };
 
 /* Compares two pictures, in double where both have it; bit for bit if tolerance is NULL: then -0 and +0 do

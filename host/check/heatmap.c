@@ -42,16 +42,17 @@ struct pair {
     const struct image *a, *b;
 };
 
-static void encode_difference(const void *context, unsigned y, uint8_t *rgb)
+static enum status encode_difference(const void *context, unsigned y, uint8_t *rgb)
 {
     const struct pair *pair = context;
     size_t start = (size_t)y * pair->a->width * 3;
     for (size_t x = 0; x < pair->a->width; x++)
         heatmap_color(pair->a->rgb + start + x * 3, pair->b->rgb + start + x * 3, rgb + x * 3);
+    return STATUS_DONE;
 }
 
 enum status heatmap_png(unsigned width, unsigned height, const char *description,
-                        void (*encode_row)(const void *context, unsigned y, uint8_t *rgb),
+                        enum status (*encode_row)(const void *context, unsigned y, uint8_t *rgb),
                         const void *context, const char *path)
 {
     const struct png_text texts[] = {{"Software", "vkwhitted"}, {"Description", description}};

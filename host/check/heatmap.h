@@ -12,7 +12,7 @@ void viridis(double level, uint8_t *rgb);
 /* Writes an 8-bit PNG (whole or not at all, see output_file.h) that is made row by row; the file says the
  * description. STATUS_UNABLE (reported) where it cannot be written. */
 enum status heatmap_png(unsigned width, unsigned height, const char *description,
-                        void (*encode_row)(const void *context, unsigned y, uint8_t *rgb),
+                        enum status (*encode_row)(const void *context, unsigned y, uint8_t *rgb),
                         const void *context, const char *path);
 
 /* The 8-bit colour of the difference between two pixels: the largest relative error over the channels,

@@ -7,17 +7,11 @@
 #include "base/statistics.h"
 #include "check/heatmap.h"
 
-static const double relative_floor = 1e-3;
+static const double relative_floor = 1e-3, tight = 1e-2;
 
-/* The largest over the channels of |float - exact| / max(|exact|, 1e-3), and of error / bound: above 1, the
- * analysis does not explain the error. */
-struct errors {
-    double relative, share_of_bound;
-};
-
-static struct errors find_errors(const float *rgb, const struct reference_explanation *exact)
+struct pixel_error judge_pixel(const float *rgb, const struct reference_explanation *exact)
 {
-    struct errors worst = {0, 0};
+    struct pixel_error worst = {0, 0};
     for (int c = 0; c < 3; ++c) {
         double error = fabs((double)rgb[c] - exact->rgb[c]);
         double relative = error / fmax(fabs(exact->rgb[c]), relative_floor);
@@ -26,6 +20,11 @@ static struct errors find_errors(const float *rgb, const struct reference_explan
         worst.share_of_bound = fmax(worst.share_of_bound, isnan(share) ? INFINITY : share);
     }
     return worst;
+}
+
+static bool is_tight(const struct reference_explanation *exact)
+{
+    return exact->bound[0] <= tight && exact->bound[1] <= tight && exact->bound[2] <= tight;
 }
 
 static double quantile(const double *sorted, size_t count, double fraction)
@@ -45,24 +44,28 @@ enum status judge_picture(const struct image *image, const uint32_t *signatures,
     }
     for (size_t i = 0; i < pixels; ++i) {
         const unsigned x = (unsigned)(i % image->width), y = (unsigned)(i / image->width);
-        const bool same = signatures[i] == explanations[i].signature, close = explanations[i].margin < 1;
-        const struct errors errors = find_errors(image->rgb + 3 * i, &explanations[i]);
+        const struct reference_explanation *exact = &explanations[i];
+        const struct pixel_error error = judge_pixel(image->rgb + 3 * i, exact);
+        const bool same = signatures[i] == exact->signature;
         judgement->other_signature += !same;
-        judgement->close_decisions += close;
-        if (!close && (!same || errors.share_of_bound > 1) && judgement->unexplained++ == 0) {
+        if ((error.share_of_bound > 1 || (!same && !(exact->margin < 1))) && judgement->unexplained++ == 0) {
             judgement->unexplained_x = x;
             judgement->unexplained_y = y;
         }
+        if (is_tight(exact)) {
+            ++judgement->tight;
+            judgement->worst_share = fmax(judgement->worst_share, error.share_of_bound);
+        } else {
+            ++judgement->wide[exact->cause];
+        }
         if (!same)
             continue;
-        if (!close)
-            judgement->worst_share = fmax(judgement->worst_share, errors.share_of_bound);
-        if (errors.relative > judgement->max) {
-            judgement->max = errors.relative;
+        if (error.relative > judgement->max) {
+            judgement->max = error.relative;
             judgement->max_x = x;
             judgement->max_y = y;
         }
-        relative_errors[count++] = errors.relative;
+        relative_errors[count++] = error.relative;
     }
     sort_doubles(relative_errors, count);
     judgement->median = quantile(relative_errors, count, 0.5);
@@ -75,12 +78,18 @@ enum status judge_picture(const struct image *image, const uint32_t *signatures,
 void judgement_print(const struct judgement *judgement, const char *scene, const char *precision,
                      size_t allowed)
 {
-    printf(
-        "%s: against %s: relative error median %.2g, 99 %% %.2g, 99.99 %% %.2g, max %.2g @ (%u, %u); "
-        "at most %.2g of the bound; %zu pixels with another signature, %zu near a decision, %zu unexplained",
-        scene, precision, judgement->median, judgement->percentile_99, judgement->percentile_99_99,
-        judgement->max, judgement->max_x, judgement->max_y, judgement->worst_share,
-        judgement->other_signature, judgement->close_decisions, judgement->unexplained);
+    static const char *const causes[CAUSE_COUNT] = {
+        [CAUSE_ROUNDING] = "rounding",           [CAUSE_HIT] = "hit or miss", [CAUSE_SHADOW] = "shadow",
+        [CAUSE_REFLECTION] = "total reflection", [CAUSE_UNKNOWN] = "unknown",
+    };
+    printf("%s: against %s: relative error median %.2g, 99 %% %.2g, 99.99 %% %.2g, max %.2g @ (%u, %u); "
+           "%zu pixels with a bound of 1e-2 or less, at most %.2g of it; wider by",
+           scene, precision, judgement->median, judgement->percentile_99, judgement->percentile_99_99,
+           judgement->max, judgement->max_x, judgement->max_y, judgement->tight, judgement->worst_share);
+    for (int i = 0; i < CAUSE_COUNT; ++i)
+        printf("%s %s %zu", i > 0 ? "," : "", causes[i], judgement->wide[i]);
+    printf("; %zu with another signature, %zu unexplained", judgement->other_signature,
+           judgement->unexplained);
     if (judgement->unexplained > 0)
         printf(" @ (%u, %u)%s", judgement->unexplained_x, judgement->unexplained_y,
                judgement->unexplained <= allowed ? "" : "  UNEXPLAINED");
@@ -90,14 +99,19 @@ void judgement_print(const struct judgement *judgement, const char *scene, const
 json_t *judgement_json(const struct judgement *judgement, const char *scene, const char *precision,
                        size_t allowed)
 {
-    return json_pack("{s:s, s:s, s:b, s:{s:o, s:o, s:o, s:o}, s:o, s:I, s:I, s:I}", "scene", scene, "against",
-                     precision, "explained", judgement->unexplained <= allowed, "relative_error", "median",
-                     json_real_or_null(judgement->median), "percentile_99",
+    const size_t *wide = judgement->wide;
+    json_t *wide_pixels =
+        json_pack("{s:I, s:I, s:I, s:I, s:I}", "rounding", (json_int_t)wide[CAUSE_ROUNDING], "hit_or_miss",
+                  (json_int_t)wide[CAUSE_HIT], "shadow", (json_int_t)wide[CAUSE_SHADOW], "total_reflection",
+                  (json_int_t)wide[CAUSE_REFLECTION], "unknown", (json_int_t)wide[CAUSE_UNKNOWN]);
+    return json_pack("{s:s, s:s, s:b, s:{s:o, s:o, s:o, s:o}, s:I, s:o, s:o, s:I, s:I}", "scene", scene,
+                     "against", precision, "explained", judgement->unexplained <= allowed, "relative_error",
+                     "median", json_real_or_null(judgement->median), "percentile_99",
                      json_real_or_null(judgement->percentile_99), "percentile_99_99",
                      json_real_or_null(judgement->percentile_99_99), "max", json_real_or_null(judgement->max),
-                     "largest_share_of_bound", json_real_or_null(judgement->worst_share),
-                     "other_signature_pixels", (json_int_t)judgement->other_signature,
-                     "close_decision_pixels", (json_int_t)judgement->close_decisions, "unexplained_pixels",
+                     "tight_pixels", (json_int_t)judgement->tight, "largest_share_of_bound",
+                     json_real_or_null(judgement->worst_share), "wide_pixels", wide_pixels,
+                     "other_signature_pixels", (json_int_t)judgement->other_signature, "unexplained_pixels",
                      (json_int_t)judgement->unexplained);
 }
 
@@ -106,16 +120,26 @@ struct judged_picture {
     const struct reference_explanation *explanations;
 };
 
-static void encode_row(const void *context, unsigned y, uint8_t *rgb)
+/* Of an error or a bound, relative to what is exact. */
+static void encode_relative(double relative, uint8_t *rgb)
+{
+    viridis(1 + log2(relative) / 24, rgb);
+}
+
+static enum status encode_row(const void *context, unsigned y, uint8_t *rgb)
 {
     const struct judged_picture *picture = context;
     size_t width = picture->image->width;
     for (size_t x = 0; x < width; ++x) {
-        size_t i = y * width + x;
+        const size_t i = y * width + x;
         const struct reference_explanation *exact = &picture->explanations[i];
-        viridis(1 + log2(find_errors(picture->image->rgb + 3 * i, exact).relative) / 24, rgb + 3 * x);
-        viridis(1 - log2(exact->margin) / 24, rgb + 3 * (width + x));
+        double bound = 0;
+        for (int c = 0; c < 3; ++c)
+            bound = fmax(bound, exact->bound[c] / fmax(fabs(exact->rgb[c]), relative_floor));
+        encode_relative(judge_pixel(picture->image->rgb + 3 * i, exact).relative, rgb + 3 * x);
+        encode_relative(bound, rgb + 3 * (width + x));
     }
+    return STATUS_DONE;
 }
 
 enum status judgement_heatmap(const struct image *image, const struct reference_explanation *explanations,
@@ -123,7 +147,6 @@ enum status judgement_heatmap(const struct image *image, const struct reference_
 {
     return heatmap_png(
         2 * image->width, image->height,
-        "left: relative error, violet 2^-24 to yellow 1; right: margin of the closest decision, "
-        "violet 2^24 to yellow 1 and less; both logarithmic",
+        "left: relative error, right: relative bound on it; violet 2^-24 to yellow 1, logarithmic",
         encode_row, &(struct judged_picture){image, explanations}, path);
 }

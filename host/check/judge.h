@@ -5,15 +5,25 @@
 #include "image/image.h"
 #include "reference.h"
 
-/* How far a float picture is from the exact one. A pixel's relative error is the largest over its channels of
- * |float - exact| / max(|exact|, 1e-3). */
+/* A pixel's errors, the largest over its channels. */
+struct pixel_error {
+    double relative;       /* |float - exact| / max(|exact|, 1e-3) */
+    double share_of_bound; /* |float - exact| / bound: above 1 the analysis does not explain it */
+};
+
+/* What is not a number, on either side, is infinitely wrong. */
+struct pixel_error judge_pixel(const float *rgb, const struct reference_explanation *exact);
+
+/* How far a float picture is from the exact one. */
 struct judgement {
-    double median, percentile_99, percentile_99_99, max; /* over pixels of the same path signature */
+    double median, percentile_99, percentile_99_99,
+        max; /* relative; over pixels of the same path signature */
     unsigned max_x, max_y;
-    double worst_share;     /* largest error / bound where no decision is close */
-    size_t other_signature; /* pixels whose tree of rays took another way */
-    size_t close_decisions; /* pixels with a decision that float may take either way */
-    size_t unexplained;     /* pixels without one that are beyond their bound, or of another signature */
+    size_t tight;             /* pixels with a bound of at most 1e-2 in each channel */
+    size_t wide[CAUSE_COUNT]; /* the others, by what widens it most */
+    double worst_share;       /* largest error / bound of those that are tight */
+    size_t other_signature;   /* pixels whose tree of rays took another way */
+    size_t unexplained; /* pixels beyond their bound, or of another signature without a close decision */
     unsigned unexplained_x, unexplained_y; /* the first */
 };
 
@@ -30,8 +40,8 @@ void judgement_print(const struct judgement *judgement, const char *scene, const
 json_t *judgement_json(const struct judgement *judgement, const char *scene, const char *precision,
                        size_t allowed);
 
-/* Writes an 8-bit PNG with two pictures side by side: the relative error, 2^-24 dark to 1 bright, and the
- * margin, 1 or less bright to 2^24 dark, both logarithmic in the colours of viridis. */
+/* Writes an 8-bit PNG with two pictures side by side: the pixels' relative errors and, likewise, their
+ * bounds, 2^-24 dark to 1 bright, both logarithmic in the colours of viridis. */
 enum status judgement_heatmap(const struct image *image, const struct reference_explanation *explanations,
                               const char *path);
 

@@ -8,9 +8,10 @@
 static enum status check_pixel(const struct render_plan *plan, const struct image *image, unsigned x,
                                unsigned y, bool *same)
 {
+    const struct window strip = window_strip(plan->window, plan->strips, y);
     struct render_plan one = {
         .scene = plan->scene,
-        .window = {plan->window.x + x, plan->window.y + y, 1, 1},
+        .window = {strip.x + x, strip.y, 1, 1},
         .precision = plan->precision,
         .threads = 1,
         .quiet = true,
@@ -36,22 +37,19 @@ enum status spot_check(const struct render_plan *plan, const struct image *image
     };
     const size_t pixels = (size_t)image->width * image->height;
     const unsigned count = pixels / PIXELS_EACH < MOST ? (unsigned)(pixels / PIXELS_EACH) + 1 : MOST;
-    struct reference_scene scene;
-    struct render_plan with_tree = *plan;
-    enum status status = reference_scene_create(plan->scene, plan->threads, &scene);
-    with_tree.scene = &scene.packed;
+    struct packed_scene unused; /* its tree is built with all threads */
+    enum status status = reference_scene(plan->scene, plan->threads, &unused);
     for (unsigned i = 0; i < count && status == STATUS_DONE; ++i) {
         const unsigned x = (unsigned)((2 * i + 1) * (uint64_t)image->width / (2 * count));
         const unsigned y = (unsigned)((2 * (i * STEP % count) + 1) * (uint64_t)image->height / (2 * count));
         bool same = false;
-        status = check_pixel(&with_tree, image, x, y, &same);
+        status = check_pixel(plan, image, x, y, &same);
         if (status != STATUS_DONE || same)
             continue;
         log_error("%s: pixel (%u, %u) is not the reference's, although the device's arithmetic seemed exact; "
                   "'vkwhitted check' tells more, --fast renders without a promise",
-                  device, plan->window.x + x, plan->window.y + y);
+                  device, plan->window.x + x, window_strip(plan->window, plan->strips, y).y);
         status = STATUS_UNABLE;
     }
-    reference_scene_destroy(&scene);
     return status;
 }

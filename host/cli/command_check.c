@@ -1,21 +1,57 @@
 #include "cli/options.h"
 
+#include <errno.h>
+#include <limits.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
 
+#include "base/clock.h"
+#include "check/float_limit.h"
 #include "check/heatmap.h"
 #include "check/judge.h"
+#include "check/junit.h"
 #include "tracer/job.h"
 
-/* The command's state: results gets a JSON object for each scene. */
+/* The command's state: results gets a JSON object for each scene, junit a test case. */
 struct check {
     const struct options *options;
     struct vulkan_context *context; /* NULL with --backend cpu */
     json_t *results;
+    struct junit junit;
+    char reason[256 + PATH_MAX]; /* why the last scene failed that did */
 };
 
 static enum status worse(enum status a, enum status b)
 {
     return a > b ? a : b;
+}
+
+/* The file for the heatmap of a scene with this status; NULL: none. In a folder it has the scene's path
+ * without suffix, with - for /. */
+static const char *heatmap_path(const struct options *options, const char *scene, enum status status,
+                                char path[PATH_MAX])
+{
+    if (!options_heatmap_folder(options))
+        return options->heatmap;
+    if (status == STATUS_DONE)
+        return NULL;
+    scene += strspn(scene, "./");
+    const char *suffix = strrchr(scene, '.');
+    size_t length = strlen(options->heatmap);
+    snprintf(path, PATH_MAX, "%s%.*s.png", options->heatmap,
+             (int)(suffix && !strchr(suffix, '/') ? (size_t)(suffix - scene) : strlen(scene)), scene);
+    for (char *slash = path + length; (slash = strchr(slash, '/'));)
+        *slash = '-';
+    return path;
+}
+
+/* Puts the heatmap's name behind the reason. */
+static void name_heatmap(struct check *check, const char *path)
+{
+    const size_t length = strlen(check->reason);
+    if (path)
+        snprintf(check->reason + length, sizeof check->reason - length, "; heatmap: %s", path);
 }
 
 static enum status add_result(const struct check *check, const char *scene, json_t *result)
@@ -26,7 +62,7 @@ static enum status add_result(const struct check *check, const char *scene, json
     return STATUS_UNABLE;
 }
 
-static enum status compare(const struct check *check, const char *scene, const struct image *device,
+static enum status compare(struct check *check, const char *scene, const struct image *device,
                            const struct image *reference)
 {
     const struct options *options = check->options;
@@ -39,14 +75,18 @@ static enum status compare(const struct check *check, const char *scene, const s
     comparison_print(&comparison, scene, options->allow);
     if (options->json)
         status = worse(status, add_result(check, scene, comparison_json(&comparison, scene, options->allow)));
-    if (options->heatmap)
-        status = worse(status, heatmap_write(device, reference, options->heatmap));
-    return status;
+    snprintf(check->reason, sizeof check->reason,
+             "%zu pixels differ, the first at (%u, %u), the largest error %.9g at (%u, %u)",
+             comparison.differing, comparison.first_x, comparison.first_y, comparison.max_error, comparison.x,
+             comparison.y);
+    char path[PATH_MAX];
+    const char *heatmap = heatmap_path(options, scene, status, path);
+    name_heatmap(check, heatmap);
+    return heatmap ? worse(status, heatmap_write(device, reference, heatmap)) : status;
 }
 
 /* Compares the device's picture with the reference's in the same precision. */
-static enum status check_by_reference(const struct check *check, const char *scene,
-                                      const struct render_plan *plan)
+static enum status check_by_reference(struct check *check, const char *scene, const struct render_plan *plan)
 {
     struct rendering device, reference;
     enum status status = render_on_device(check->context, plan, &device);
@@ -61,7 +101,7 @@ static enum status check_by_reference(const struct check *check, const char *sce
     return status;
 }
 
-static enum status judge(const struct check *check, const char *scene, const struct image *image,
+static enum status judge(struct check *check, const char *scene, const struct image *image,
                          const uint32_t *signatures, const struct reference_explanation *explanations)
 {
     const struct options *options = check->options;
@@ -75,14 +115,17 @@ static enum status judge(const struct check *check, const char *scene, const str
     if (options->json)
         status = worse(
             status, add_result(check, scene, judgement_json(&judgement, scene, precision, options->allow)));
-    if (options->heatmap)
-        status = worse(status, judgement_heatmap(image, explanations, options->heatmap));
-    return status;
+    snprintf(check->reason, sizeof check->reason, "%zu pixels unexplained, the first at (%u, %u)",
+             judgement.unexplained, judgement.unexplained_x, judgement.unexplained_y);
+    char path[PATH_MAX];
+    const char *heatmap = heatmap_path(options, scene, status, path);
+    name_heatmap(check, heatmap);
+    return heatmap ? worse(status, judgement_heatmap(image, explanations, heatmap)) : status;
 }
 
 /* Judges the device's picture, or without a device that of the reference's float build, by the exact picture.
  */
-static enum status check_by_exact_picture(const struct check *check, const char *scene,
+static enum status check_by_exact_picture(struct check *check, const char *scene,
                                           const struct render_plan *plan)
 {
     struct rendering rendering;
@@ -104,15 +147,16 @@ static enum status check_by_exact_picture(const struct check *check, const char 
     return status;
 }
 
-static enum status check_scene(const struct check *check, const char *scene)
+static enum status check_scene(struct check *check, const char *scene)
 {
     struct job job;
     enum status status = job_create(&check->options->job, scene, &job);
     if (status != STATUS_DONE)
         return status;
-    if (check->options->against == PRECISION_FLOAT)
+    status = float_limit_warn(&job);
+    if (status == STATUS_DONE && check->options->against == PRECISION_FLOAT)
         status = check_by_reference(check, scene, &job.plan);
-    else
+    else if (status == STATUS_DONE)
         status = check_by_exact_picture(check, scene, &job.plan);
     job_destroy(&job);
     return status;
@@ -122,20 +166,31 @@ enum status command_check(const struct options *options)
 {
     struct check check = {.options = options};
     enum status status = STATUS_DONE;
+    if (options_heatmap_folder(options) && mkdir(options->heatmap, 0777) != 0 && errno != EEXIST) {
+        log_error("%s: cannot make the folder: %s", options->heatmap, strerror(errno));
+        return STATUS_UNABLE;
+    }
     if (options->backend == BACKEND_VULKAN)
         status = vulkan_context_create(&options->vulkan, &check.context);
     if (status != STATUS_DONE)
         return status;
     check.results = json_array();
-    for (size_t i = 0; i < options->scene_count && status != STATUS_INTERRUPTED; ++i)
-        status = worse(status, check_scene(&check, options->scenes[i]));
+    junit_create(&check.junit);
+    for (size_t i = 0; i < options->scene_count && status != STATUS_INTERRUPTED; ++i) {
+        const double start = clock_ms();
+        const enum status outcome = check_scene(&check, options->scenes[i]);
+        junit_add(&check.junit, options->scenes[i], (clock_ms() - start) / 1e3, outcome, check.reason);
+        status = worse(status, outcome);
+    }
+    const char *device = check.context ? check.context->properties.deviceName : "cpu";
     if (options->json && status != STATUS_INTERRUPTED) {
-        const struct vulkan_context *context = check.context;
-        json_t *document =
-            json_pack("{s:s, s:s, s:O}", "device", context ? context->properties.deviceName : "cpu", "driver",
-                      context ? context->driver.driverInfo : "plain-C reference", "scenes", check.results);
+        json_t *document = json_pack("{s:s, s:s, s:O}", "device", device, "driver",
+                                     check.context ? check.context->driver.driverInfo : "plain-C reference",
+                                     "scenes", check.results);
         status = worse(status, json_write(document, options->json));
     }
     json_decref(check.results);
+    status = worse(status,
+                   junit_write(&check.junit, device, status == STATUS_INTERRUPTED ? NULL : options->junit));
     return worse(status, vulkan_context_destroy(&check.context));
 }

@@ -1,9 +1,11 @@
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/output_file.h"
 #include "cli/option_table.h"
+#include "cli/scene_name.h"
 
 static enum status read_command(const char *name, struct options *options)
 {
@@ -100,19 +102,35 @@ static enum status read_place(struct options *options)
     return STATUS_REFUSED;
 }
 
+bool options_heatmap_folder(const struct options *options)
+{
+    const size_t length = options->heatmap ? strlen(options->heatmap) : 0;
+    return length > 0 && options->heatmap[length - 1] == '/';
+}
+
+static bool writes_only_exr(const struct options *options)
+{
+    for (size_t i = 0; i < options->output_count; ++i)
+        if (image_format_of(options->outputs[i]) != IMAGE_FORMAT_EXR)
+            return false;
+    return true;
+}
+
 static enum status check_consistency(const struct options *options)
 {
     enum command_id command = options->command;
     enum precision precision = options->job.plan.precision;
     size_t scenes = options->scene_count;
     const char *suffix = options->heatmap ? strrchr(options->heatmap, '.') : NULL;
+    bool heatmap_file = options->heatmap && !options_heatmap_folder(options);
     bool cpu = options->backend == BACKEND_CPU, against = options->against != PRECISION_FLOAT;
     const struct {
         bool is_so;
         const char *problem;
     } rules[] = {
         {command == COMMAND_DEVICES && scenes > 0, "devices takes no scene"},
-        {command != COMMAND_DEVICES && scenes == 0, "expected a scene file"},
+        {command == COMMAND_JOIN && scenes == 0, "join takes the files of a picture's tiles"},
+        {command == COMMAND_JOIN && options->output_count == 0, "join needs -o FILE"},
         {command == COMMAND_RENDER && scenes > 1, "render takes one scene file"},
         {command == COMMAND_WATCH && scenes > 1, "watch takes one scene file"},
         {command == COMMAND_WATCH && options->output_count == 0 && !options->window,
@@ -124,15 +142,18 @@ static enum status check_consistency(const struct options *options)
         {precision != PRECISION_FLOAT && (options->job.plan.fast || against),
          "--fast and --against go with --precision float"},
         {cpu && options->job.plan.fast, "--fast is a device's pipeline; it does not go with --backend cpu"},
-        {cpu && (options->vulkan.device || options->vulkan.validate),
-         "--device and --validate do not go with --backend cpu"},
+        {cpu && (options->vulkan.device || options->vulkan.validate || options->shaders.path),
+         "--device, --shaders and --validate do not go with --backend cpu"},
         {cpu && command == COMMAND_CHECK && !against, "check --backend cpu needs --against double or quad"},
         {against && options->has_tolerance,
          "--tolerance does not go with --against, which derives a bound for every pixel"},
         {against && options->job.has_max_error,
          "--max-error does not go with --against, which judges rounding alone"},
-        {options->heatmap && scenes > 1, "--heatmap takes one scene file"},
-        {options->heatmap && !(suffix && strcasecmp(suffix, ".png") == 0), "--heatmap writes a .png"},
+        {heatmap_file && scenes > 1,
+         "--heatmap FILE.png takes one scene file; for several name a folder, DIR/"},
+        {heatmap_file && !(suffix && strcasecmp(suffix, ".png") == 0),
+         "--heatmap takes FILE.png or a folder, DIR/"},
+        {options->job.tile.count > 0 && !writes_only_exr(options), "--tile writes .exr"},
     };
     for (size_t i = 0; i < sizeof rules / sizeof *rules; ++i)
         if (rules[i].is_so) {
@@ -142,11 +163,42 @@ static enum status check_consistency(const struct options *options)
     return STATUS_DONE;
 }
 
+/* Says that this was given, or where it is NULL nothing, in the place of a scene. */
+static enum status refuse_scene(const char *name)
+{
+    char *list = scene_name_list();
+    log_error("%s%sexpected %s", name ? name : "", name ? ": no such scene; " : "",
+              list ? list : "a scene file");
+    free(list);
+    return STATUS_REFUSED;
+}
+
+/* Puts the paths of the program's scenes in the place of their names. What is neither a path nor such a name
+ * is refused. */
+static enum status find_scenes(struct options *options)
+{
+    char **found = options->found;
+    if (options->command == COMMAND_DEVICES || options->command == COMMAND_JOIN)
+        return STATUS_DONE;
+    if (options->scene_count == 0)
+        return refuse_scene(NULL);
+    for (size_t i = 0; i < options->scene_count; ++i) {
+        char **scene = &options->scenes[i];
+        *found = scene_name_find(*scene);
+        if (*found)
+            *scene = *found++;
+        else if (!strpbrk(*scene, "/.") && access(*scene, F_OK) != 0)
+            return refuse_scene(*scene);
+    }
+    return STATUS_DONE;
+}
+
 /* Whether all outputs can be written, before anything is computed. */
 static enum status check_outputs(const struct options *options)
 {
-    const char *const paths[] = {options->stats, options->json, options->heatmap, options->report,
-                                 options->csv};
+    const char *const paths[] = {options->stats,  options->json,
+                                 options->junit,  options_heatmap_folder(options) ? NULL : options->heatmap,
+                                 options->report, options->csv};
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
         status = image_write_check(options->outputs[i]);
@@ -160,7 +212,8 @@ enum status command_line_read(int argc, char **argv, struct options *options)
 {
     *options = (struct options){.argc = argc, .argv = argv, .job = {.max_bounces = -1, .samples = 1}};
     options->outputs = calloc((size_t)argc, sizeof *options->outputs);
-    if (!options->outputs) {
+    options->found = calloc((size_t)argc, sizeof *options->found);
+    if (!options->outputs || !options->found) {
         log_error("no memory for the command line");
         return STATUS_UNABLE;
     }
@@ -176,10 +229,23 @@ enum status command_line_read(int argc, char **argv, struct options *options)
         return status;
     log_set_verbosity(options->job.plan.quiet ? -1 : options->verbose ? 1 : 0);
     options->job.plan.count_rays = options->stats != NULL;
+    if (options->shaders.path && options->command != COMMAND_WATCH) /* which follows its files */
+        options->job.plan.shaders = &options->shaders;
     if (options->command == COMMAND_WATCH && options->output_count == 0)
         options->window = options->window || getenv("DISPLAY") || getenv("WAYLAND_DISPLAY");
     status = check_consistency(options);
     if (status == STATUS_DONE && options->command == COMMAND_PIXEL)
         status = read_place(options);
+    if (status == STATUS_DONE)
+        status = find_scenes(options);
     return status == STATUS_DONE ? check_outputs(options) : status;
+}
+
+void options_destroy(struct options *options)
+{
+    for (char **found = options->found; found && *found; ++found)
+        free(*found);
+    free(options->found);
+    free(options->outputs);
+    shader_folder_destroy(&options->shaders);
 }

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/json.h"
+#include "check/float_limit.h"
 #include "check/spot_check.h"
 #include "tracer/job.h"
 
@@ -81,9 +82,10 @@ enum status command_render(const struct options *options)
     enum status status = job_create(&options->job, options->scenes[0], &job);
     if (status != STATUS_DONE)
         return status;
+    status = float_limit_warn(&job);
     job.plan.bound_truncation = options->job.has_max_error || writes_exr(options);
     double start = clock_ms();
-    if (options->backend == BACKEND_VULKAN)
+    if (status == STATUS_DONE && options->backend == BACKEND_VULKAN)
         status = vulkan_context_create(&options->vulkan, &context);
     double context_ms = context ? clock_ms() - start : 0;
     if (status == STATUS_DONE)
@@ -91,7 +93,7 @@ enum status command_render(const struct options *options)
             context ? render_on_device(context, &job.plan, &rendering) : render_on_cpu(&job.plan, &rendering);
     if (status == STATUS_DONE) {
         rendering.setup_ms += context_ms;
-        if (context && !job.plan.fast)
+        if (context && !job.plan.fast && !job.plan.shaders)
             status = spot_check(&job.plan, &rendering.image, context->properties.deviceName);
         if (status == STATUS_DONE)
             status = deliver(options, &job, &rendering, context);

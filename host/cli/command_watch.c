@@ -6,7 +6,7 @@ enum status command_watch(const struct options *options)
 {
     return watch(&(struct watch_options){
         .scene = options->scenes[0],
-        .shader_folder = options->shaders,
+        .shader_folder = options->shaders.path,
         .outputs = options->outputs,
         .output_count = options->output_count,
         .transfer = options->transfer,

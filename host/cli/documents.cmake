@@ -14,6 +14,7 @@ string(REGEX REPLACE "\n  -(.), -" "\n  -\\1 , Fl " options "${options}")
 string(REGEX REPLACE "\n  -([a-z-]+) ([^ ,\n][^ \n]*)  +" "\n.It Fl \\1 Ar \\2\n" options "${options}")
 string(REGEX REPLACE "\n  -([a-z-]+( , Fl [a-z-]+)?)  +" "\n.It Fl \\1\n" options "${options}")
 string(REPLACE "--" "\\-\\-" options "${options}") # left of those in texts
+string(REGEX REPLACE "\n(')" "\n\\\\&\\1" options "${options}") # no macro
 
 foreach(file vkwhitted.1 completions/bash/vkwhitted completions/zsh/_vkwhitted)
     configure_file(${SOURCE}/${file}.in ${BINARY}/${file} @ONLY)

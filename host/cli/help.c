@@ -6,6 +6,7 @@
 const struct command commands[COMMAND_COUNT] = {
     [COMMAND_RENDER] = {"render", "SCENE [-o FILE]...", "render a picture: .png, .exr or .pfm",
                         command_render},
+    [COMMAND_JOIN] = {"join", "TILE... -o FILE", "one picture from the tiles of render --tile", command_join},
     [COMMAND_CHECK] = {"check", "SCENE...", "compare device and reference, pixel by pixel", command_check},
     [COMMAND_WATCH] = {"watch", "SCENE [-o FILE]...", "render again when the scene or a shader is saved",
                        command_watch},

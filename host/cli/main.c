@@ -1,5 +1,4 @@
 #include <signal.h>
-#include <stdlib.h>
 
 #include "base/interrupt.h"
 #include "cli/options.h"
@@ -20,7 +19,7 @@ int main(int argc, char **argv)
         help_print_version();
     else if (status == STATUS_DONE)
         status = commands[options.command].run(&options);
-    free(options.outputs);
+    options_destroy(&options);
     if (status == STATUS_DONE && fflush(stdout) != 0) {
         log_error("cannot write to standard output");
         status = STATUS_UNABLE;

@@ -102,6 +102,16 @@ static bool read_crop(const struct option_entry *option, const char *value, void
     return true;
 }
 
+static bool read_tile(const struct option_entry *option, const char *value, void *place)
+{
+    struct job_options *job = &((struct options *)place)->job;
+    unsigned tile[2];
+    if (!parse_list(value, '/', 2, TILE_MOST, tile) || tile[0] < 1 || tile[0] > tile[1])
+        return refuse(option, value, "I/N, the Ith of N tiles, I from 1 to N");
+    job->tile = (struct tile){.number = tile[0], .count = tile[1]};
+    return true;
+}
+
 static bool read_max_error(const struct option_entry *option, const char *value, void *place)
 {
     struct job_options *job = &((struct options *)place)->job;
@@ -124,6 +134,7 @@ static bool read_tolerance(const struct option_entry *option, const char *value,
 
 enum {
     RENDER = 1 << COMMAND_RENDER,
+    JOIN = 1 << COMMAND_JOIN,
     CHECK = 1 << COMMAND_CHECK,
     WATCH = 1 << COMMAND_WATCH,
     BENCH = 1 << COMMAND_BENCH,
@@ -141,6 +152,9 @@ enum {
 const struct option_entry option_table[] = {
     {"size", "", RENDER | CHECK | WATCH | BENCH | PIXEL, OTHER("WxH", read_size),
      "pixels of the picture, instead of the scene's"},
+    {"shaders", "", RENDER | CHECK | WATCH | BENCH | PIXEL, TEXT("DIR", shaders.path),
+     "the folder of a whitted.comp, which is compiled now, in the\n"
+     "place of the program's own"},
 
     {"max-bounces", "", RENDER | CHECK | WATCH | PIXEL, NUMBER(job.max_bounces, 0, SCENE_MAX_BOUNCES),
      "bounces after which a ray is black, instead of the scene's"},
@@ -165,10 +179,14 @@ const struct option_entry option_table[] = {
     {"backend", "", RENDER | CHECK | BENCH, CHOICE("vulkan|cpu", backend, BACKEND_VULKAN),
      "cpu: the plain-C reference, no device (check: with --against)"},
 
-    {"", "o", RENDER | WATCH, OTHER("FILE", read_output), "write the picture; may be given several times"},
-    {"transfer", "", RENDER | WATCH, CHOICE("srgb|linear", transfer, TRANSFER_SRGB),
+    {"", "o", RENDER | JOIN | WATCH, OTHER("FILE", read_output),
+     "write the picture; may be given several times"},
+    {"transfer", "", RENDER | JOIN | WATCH, CHOICE("srgb|linear", transfer, TRANSFER_SRGB),
      "of 8-bit files (default srgb)"},
 
+    {"tile", "", RENDER, OTHER("I/N", read_tile),
+     "only the Ith of N parts of the picture, from 1, as .exr;\n"
+     "'vkwhitted join' makes one picture of all of them"},
     {"stats", "", RENDER, TEXT("FILE", stats), "times, rays and device as JSON"},
     {"repeat", "", RENDER, NUMBER(job.plan.repeat, 1, 100000),
      "render again as often; the time is the median of these"},
@@ -177,15 +195,17 @@ const struct option_entry option_table[] = {
      "a and b agree where |a - b| <= ABS + REL max(|a|, |b|)\n"
      "(default: where they are the same bits)"},
     {"allow", "", CHECK, NUMBER(allow, 0, UINT_MAX), "pixels that may differ or be unexplained"},
-    {"heatmap", "", CHECK, TEXT("FILE.png", heatmap), "where they differ, as a picture"},
+    {"heatmap", "", CHECK, TEXT("FILE.png", heatmap),
+     "where they differ, as a picture; DIR/: one for each scene\n"
+     "that differs, in that folder"},
+    {"junit", "", CHECK, TEXT("FILE.xml", junit), "the result for CI, a test case a scene"},
 
     {"against", "", CHECK | PIXEL, CHOICE("double|quad", against, PRECISION_DOUBLE),
      "judge the float picture by a more precise one: errors, their\n"
-     "bounds, and what is beyond them without a close decision"},
+     "bounds, and pixels that are beyond them"},
 
     {"json", "", CHECK | PIXEL | BENCH, TEXT("FILE", json), "the result for machines"},
 
-    {"shaders", "", WATCH, TEXT("DIR", shaders), "the folder of whitted.comp (default: the program's)"},
     {"check", "", WATCH, FLAG(check), "compare each picture with the reference in the background"},
     {"window", "", WATCH, FLAG(window),
      "show it in a window (default on a display, without -o): drag,\n"
@@ -199,9 +219,9 @@ const struct option_entry option_table[] = {
      "what became faster, slower or less accurate beyond noise since\n"
      "the bench that wrote this with --json"},
 
-    {"device", "", ALL, TEXT("N|NAME", vulkan.device),
+    {"device", "", ALL & ~JOIN, TEXT("N|NAME", vulkan.device),
      "the device with this number, or with this in its name"},
-    {"validate", "", ALL, FLAG(vulkan.validate),
+    {"validate", "", ALL & ~JOIN, FLAG(vulkan.validate),
      "with the Khronos validation layer; any message is an error"},
     {"", "q", ALL, FLAG(job.plan.quiet), "quiet: errors only"},
     {"", "v", ALL, FLAG(verbose), "verbose: also the device; all light samples of a pixel"},

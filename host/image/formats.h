@@ -7,9 +7,9 @@
 #include "image/image.h"
 
 /* Writers behind image_write(); each reports its failures. */
-enum status image_write_png(const struct image *image, const char *path,
+enum status image_write_png(const struct image_rows *rows, const char *path,
                             const struct image_metadata *metadata);
-enum status image_write_exr(const struct image *image, const char *path,
+enum status image_write_exr(const struct image_rows *rows, const char *path,
                             const struct image_metadata *metadata);
 
 struct png_text {
@@ -22,12 +22,12 @@ struct png_source {
     enum transfer transfer; /* of the code values, for the file to say */
     const struct png_text *texts;
     int text_count;
-    void (*encode_row)(const void *context, unsigned y, uint8_t *rgb); /* 3 * width bytes */
+    enum status (*encode_row)(const void *context, unsigned y, uint8_t *rgb); /* 3 * width bytes */
     const void *context;
 };
 
 /* Writes the picture to the stream, which goes by that name in messages. STATUS_UNABLE (reported) where it
- * cannot be written; what the stream still holds back has yet to be flushed. */
+ * cannot be written, or what a row fails with; what the stream still holds back has yet to be flushed. */
 enum status png_encode(const struct png_source *source, FILE *stream, const char *name);
 
 /* Writes the picture to a file, whole or not at all. */

@@ -3,6 +3,15 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+struct window window_strip(struct window window, struct strips strips, unsigned y)
+{
+    const unsigned left = window.height - y;
+    const unsigned of_strip = strips.rows > 0 ? strips.rows - y % strips.rows : left;
+    window.y += y + (strips.rows > 0 ? y / strips.rows * strips.skip : 0);
+    window.height = of_strip < left ? of_strip : left;
+    return window;
+}
+
 enum status image_create(unsigned width, unsigned height, struct image *image)
 {
     *image = (struct image){0};

@@ -79,34 +79,36 @@ static void put_header(struct png_output *output)
     png_write_info(png, output->info);
 }
 
-static bool encode(struct png_output *output)
+static enum status encode(struct png_output *output)
 {
     if (setjmp(png_jmpbuf(output->png)))
-        return false;
+        return STATUS_UNABLE;
     png_init_io(output->png, output->stream);
     put_header(output);
     for (unsigned y = 0; y < output->source->height; y++) {
-        output->source->encode_row(output->source->context, y, output->row);
+        const enum status status = output->source->encode_row(output->source->context, y, output->row);
+        if (status != STATUS_DONE)
+            return status;
         png_write_row(output->png, output->row);
     }
     png_write_end(output->png, NULL);
-    return true;
+    return STATUS_DONE;
 }
 
 enum status png_encode(const struct png_source *source, FILE *stream, const char *name)
 {
     struct png_output output = {.stream = stream, .name = name, .source = source};
-    bool encoded = false;
+    enum status status = STATUS_UNABLE;
     output.row = malloc((size_t)source->width * 3);
     output.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &output, on_error, on_warning);
     output.info = output.png ? png_create_info_struct(output.png) : NULL;
     if (output.row && output.info)
-        encoded = encode(&output);
+        status = encode(&output);
     else
         log_error("%s: no memory to write PNG", name);
     png_destroy_write_struct(&output.png, &output.info);
     free(output.row);
-    return encoded ? STATUS_DONE : STATUS_UNABLE;
+    return status;
 }
 
 enum status png_write(const struct png_source *source, const char *path)
@@ -122,26 +124,30 @@ enum status png_write(const struct png_source *source, const char *path)
 }
 
 struct picture {
-    const struct image *image;
+    const struct image_rows *rows;
     enum transfer transfer;
     struct srgb_encoder encoder;
 };
 
-static void encode_picture_row(const void *context, unsigned y, uint8_t *rgb)
+static enum status encode_picture_row(const void *context, unsigned y, uint8_t *rgb)
 {
     const struct picture *picture = context;
-    size_t channels = (size_t)picture->image->width * 3;
-    const float *row = picture->image->rgb + y * channels;
+    const size_t channels = (size_t)picture->rows->width * 3;
+    const float *row;
+    enum status status = picture->rows->read(picture->rows->context, y, false, &row);
+    if (status != STATUS_DONE)
+        return status;
     if (picture->transfer == TRANSFER_SRGB)
         srgb_encode(&picture->encoder, row, channels, rgb);
     else
         linear_encode(row, channels, rgb);
+    return STATUS_DONE;
 }
 
-enum status image_write_png(const struct image *image, const char *path,
+enum status image_write_png(const struct image_rows *rows, const char *path,
                             const struct image_metadata *metadata)
 {
-    struct picture picture = {.image = image, .transfer = metadata->transfer};
+    struct picture picture = {.rows = rows, .transfer = metadata->transfer};
     srgb_encoder_init(&picture.encoder);
     char max_bounces[16];
     snprintf(max_bounces, sizeof max_bounces, "%u", metadata->max_bounces);
@@ -150,8 +156,8 @@ enum status image_write_png(const struct image *image, const char *path,
         {"precision", metadata->precision}, {"maxBounces", max_bounces},
     };
     const struct png_source source = {
-        .width = image->width,
-        .height = image->height,
+        .width = rows->width,
+        .height = rows->height,
         .transfer = metadata->transfer,
         .texts = texts,
         .text_count = (int)(sizeof texts / sizeof texts[0]),

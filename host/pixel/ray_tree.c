@@ -42,8 +42,8 @@ enum status ray_tree_on_device(struct vulkan_context *context, const struct rend
     const size_t event_size = sizeof(struct EventHead) + EVENT_VALUES * sizeof(double);
     const size_t fitting = context->properties.limits.maxStorageBufferRange / event_size - 1;
     const size_t kept = MIN(MIN(expected, MOST_EVENTS), fitting);
-    const struct tracer_options options = {.double_precision = double_precision,
-                                           .event_room = (uint32_t)kept};
+    const struct tracer_options options = {
+        .double_precision = double_precision, .event_room = (uint32_t)kept, .shaders = plan->shaders};
     struct progress unseen = {.total = 1};
     struct tracer *tracer = NULL;
     struct image image;
@@ -74,18 +74,17 @@ enum status ray_tree_on_cpu(const struct render_plan *plan, enum precision again
                                               : reference_record_float;
     const int x = (int)plan->window.x, y = (int)plan->window.y;
     struct reference_log log = {0};
-    struct reference_scene scene;
+    struct packed_scene scene;
     *tree = (struct ray_tree){0};
-    enum status status = reference_scene_create(plan->scene, plan->threads, &scene);
+    enum status status = reference_scene(plan->scene, plan->threads, &scene);
     if (status != STATUS_DONE)
         return status;
-    trace(&scene.packed, x, y, &log); /* counts */
+    trace(&scene, x, y, &log); /* counts */
     status = allocate(tree, log.count, MOST_EVENTS);
     if (status == STATUS_DONE) {
         log = (struct reference_log){.events = tree->events, .room = tree->count};
-        trace(&scene.packed, x, y, &log);
+        trace(&scene, x, y, &log);
     }
-    reference_scene_destroy(&scene);
     return status;
 }
 

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "scene/body.h"
-#include "tracer/reference_scene.h"
 
 enum { DEVICE, REFERENCE, EXACT, SIDES };
 
@@ -112,15 +111,10 @@ static enum status number_objects(struct pixel_trace *trace)
 enum status pixel_trace_create(struct vulkan_context *context, const struct job *job, enum precision against,
                                struct pixel_trace *trace)
 {
-    struct render_plan with_tree = job->plan; /* for all that the reference traces */
-    const struct render_plan *plan = &with_tree;
-    struct reference_scene scene;
+    const struct render_plan *plan = &job->plan;
     *trace = (struct pixel_trace){
         .job = job, .context = context, .against = against, .scale = pack_scale(&job->scene)};
-    enum status status = reference_scene_create(job->plan.scene, job->plan.threads, &scene);
-    with_tree.scene = &scene.packed;
-    if (status == STATUS_DONE)
-        status = number_objects(trace);
+    enum status status = number_objects(trace);
     if (status == STATUS_DONE)
         status = ray_tree_on_cpu(plan, PRECISION_FLOAT, &trace->reference);
     if (status == STATUS_DONE && against != PRECISION_FLOAT)
@@ -137,7 +131,6 @@ enum status pixel_trace_create(struct vulkan_context *context, const struct job 
     trace->difference = ray_trees_compare(&trace->device, &trace->reference);
     trace->is_the_pictures =
         ends_in(&trace->device, trace->picture) && ends_in(&trace->reference, trace->reference_picture);
-    reference_scene_destroy(&scene);
     if (status != STATUS_DONE)
         pixel_trace_destroy(trace);
     return status;

@@ -17,6 +17,7 @@ struct body {
     bool is_ball;
     struct dvec3 vector;
     double number;
+    bool is_giant; /* stored as such in the packed scene, in whose units it is; see giant.h */
 };
 
 /* A row of a file with spheres is a body of its own. */
@@ -29,12 +30,12 @@ static inline struct body body_of(const struct scene_object *object, size_t row)
 {
     if (object->type == OBJECT_SPHERES) {
         const float *at = object->spheres.rows[row];
-        return (struct body){true, {(double)at[0], (double)at[1], (double)at[2]}, (double)at[3]};
+        return (struct body){true, {(double)at[0], (double)at[1], (double)at[2]}, (double)at[3], false};
     }
     if (object->type == OBJECT_SPHERE)
-        return (struct body){true, dvec3_of(object->sphere.center), object->sphere.radius};
+        return (struct body){true, dvec3_of(object->sphere.center), object->sphere.radius, false};
     struct dvec3 normal = dvec3_unit(dvec3_of(object->plane.normal));
-    return (struct body){false, normal, dvec3_dot(normal, dvec3_of(object->plane.point))};
+    return (struct body){false, normal, dvec3_dot(normal, dvec3_of(object->plane.point)), false};
 }
 
 /* The packed scene's spheres, then its planes. */
@@ -49,6 +50,18 @@ static inline const PackedSurface *body_surface(const struct packed_scene *scene
                                    : &scene->planes[i - scene->sphere_count].surface;
 }
 
+/* Its place in the scene file, where each row of a file of spheres counts. */
+static inline int body_file_order(const struct packed_scene *scene, int i)
+{
+    return i < scene->sphere_count ? scene->spheres[i].tags.FILE_ORDER
+                                   : scene->planes[i - scene->sphere_count].surface.tags.FILE_ORDER;
+}
+
+static inline bool body_is_giant(const struct packed_scene *scene, int i)
+{
+    return i < 32 && (scene->giants >> i & 1) != 0;
+}
+
 static inline layout_vec4 body_shape(const struct packed_scene *scene, int i)
 {
     return i < scene->sphere_count ? scene->spheres[i].center_radius
@@ -58,7 +71,14 @@ static inline layout_vec4 body_shape(const struct packed_scene *scene, int i)
 static inline struct body body_packed(const struct packed_scene *scene, int i)
 {
     layout_vec4 shape = body_shape(scene, i);
-    return (struct body){i < scene->sphere_count, dvec3_of_vec4(shape), (double)shape.w};
+    struct body body = {i < scene->sphere_count, dvec3_of_vec4(shape), (double)shape.w,
+                        body_is_giant(scene, i)};
+    if (body.is_giant) {
+        const double curvature = (double)scene->surfaces[i].more_parameters.CURVATURE;
+        body.number = sqrt(dvec3_dot(body.vector, body.vector) + 2 * curvature * body.number) / curvature;
+        body.vector = dvec3_scale(-1 / curvature, body.vector);
+    }
+    return body;
 }
 
 /* Around a ball, rounded outwards. */
@@ -80,10 +100,11 @@ static inline double body_distance(struct body body, struct dvec3 point)
                         : dvec3_dot(body.vector, point) - body.number;
 }
 
-/* Whether the body's surface reaches into the ball; that of a larger ball around it does not. */
+/* Whether the body's surface reaches into the ball; that of a larger ball around it does not. A giant's
+ * surface is known by where things are that may touch it, which are in the scene's extent. */
 static inline bool body_reaches_into(struct body body, struct body ball)
 {
-    double least = RESOLUTION * (dvec3_length(ball.vector) + ball.number);
+    double least = RESOLUTION * (ball.is_giant ? 2 : dvec3_length(ball.vector) + ball.number);
     return fabs(body_distance(body, ball.vector)) < ball.number - least;
 }
 

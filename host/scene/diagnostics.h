@@ -22,8 +22,7 @@ struct diagnostics {
         struct scene_place place;
         char *message;
     } errors[REPORT_MAX_ERRORS];
-    bool no_memory;   /* an allocation failed anywhere in the reading */
-    bool interrupted; /* by the user */
+    bool no_memory; /* an allocation failed anywhere in the reading */
 };
 
 __attribute__((format(printf, 3, 4))) void report_error(struct diagnostics *report, struct scene_place place,

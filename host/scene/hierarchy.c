@@ -4,7 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/interrupt.h"
+#include "base/progress.h"
+#include "sphere_tree.h"
 
 enum {
     BINS = 16,
@@ -141,27 +142,36 @@ static uint32_t part(struct leaf *leaves, uint32_t count, int level)
     return left;
 }
 
+struct building {
+    struct hierarchy_node *nodes;
+    struct progress progress; /* in leaves */
+};
+
 /* Builds the subtree at `node` over the leaves; what is below the node takes the 2 count - 2 nodes from
  * `below` on. */
-static void build(struct hierarchy_node *nodes, uint32_t node, uint32_t below, struct leaf *leaves,
+static void build(struct building *building, uint32_t node, uint32_t below, struct leaf *leaves,
                   uint32_t count, int level)
 {
+    struct hierarchy_node *nodes = building->nodes;
     if (count == 1) {
         nodes[node] = (struct hierarchy_node){box_around(leaves), 0, leaves->sphere};
         return;
     }
-    if (count > LEAST_TASK && interrupt_requested())
-        return;
     const uint32_t left = part(leaves, count, level), right = count - left;
     const uint32_t below_right =
         below + 2 * left; /* behind the two children and what is below the left one */
 #pragma omp task if (left > LEAST_TASK)
-    build(nodes, below, below + 2, leaves, left, level + 1);
-    build(nodes, below + 1, below_right, leaves + left, right, level + 1);
+    build(building, below, below + 2, leaves, left, level + 1);
+    build(building, below + 1, below_right, leaves + left, right, level + 1);
 #pragma omp taskwait
     struct box box = nodes[below].box;
     include(&box, nodes[below + 1].box.lo, nodes[below + 1].box.hi);
     nodes[node] = (struct hierarchy_node){box, below, 0};
+    if (count > LEAST_TASK) {
+        const uint32_t done = (left > LEAST_TASK ? 0 : left) + (right > LEAST_TASK ? 0 : right);
+#pragma omp critical(hierarchy_progress)
+        progress_advance(&building->progress, done);
+    }
 }
 
 enum status hierarchy_build(const struct PackedSphere *spheres, uint32_t first, uint32_t count,
@@ -180,19 +190,20 @@ enum status hierarchy_build(const struct PackedSphere *spheres, uint32_t first, 
         const layout_vec4 sphere = spheres[first + i].center_radius;
         leaves[i] = (struct leaf){{sphere.x, sphere.y, sphere.z}, sphere.w, first + i};
     }
+    struct building building = {.nodes = hierarchy->nodes};
+    progress_start(&building.progress, "hierarchy", count, false);
 #pragma omp parallel
 #pragma omp single
-    build(hierarchy->nodes, 0, 1, leaves, count, 0);
+    build(&building, 0, 1, leaves, count, 0);
+    progress_end(&building.progress);
     free(leaves);
-    if (!interrupt_requested())
-        return STATUS_DONE;
-    hierarchy_destroy(hierarchy);
-    return STATUS_INTERRUPTED;
+    return STATUS_DONE;
 }
 
 void hierarchy_destroy(struct hierarchy *hierarchy)
 {
     free(hierarchy->nodes);
+    sphere_tree_destroy(&hierarchy->tree);
     *hierarchy = (struct hierarchy){0};
 }
 

@@ -31,11 +31,12 @@ struct hierarchy_node {
 struct hierarchy {
     struct hierarchy_node *nodes;
     uint32_t node_count;
+    unsigned owners;          /* packed scenes that share it, where such own it */
+    struct sphere_tree *tree; /* the reference's own over the same spheres; NULL: not wanted yet */
 };
 
 /* Of spheres first to first + count - 1 of the scene; on all processors. On STATUS_DONE the caller frees it
- * with hierarchy_destroy(); otherwise it is empty: STATUS_UNABLE (reported) without memory,
- * STATUS_INTERRUPTED. */
+ * with hierarchy_destroy(); otherwise it is empty: STATUS_UNABLE (reported) without memory. */
 enum status hierarchy_build(const struct PackedSphere *spheres, uint32_t first, uint32_t count,
                             struct hierarchy *hierarchy);
 void hierarchy_destroy(struct hierarchy *hierarchy);

@@ -1,9 +1,16 @@
 #include "scene/hollow.h"
 
-#include "base/interrupt.h"
+#include <string.h>
+
+#include "base/progress.h"
 #include "scene/body.h"
 
-enum { LEAST_PARALLEL = 4096 }; /* spheres or nodes for which other threads pay */
+enum {
+    LEAST_PARALLEL = 4096, /* spheres or nodes for which other threads pay */
+    NODES_A_PART = 1024,
+    BY_CAMERA = 1, /* why HOLDS_RAYS is not 0 */
+    BY_SURFACE = 2
+};
 
 /* A body whose surface is looked for in a sphere. */
 struct search {
@@ -58,31 +65,60 @@ static void look_inside(struct packed_scene *packed, int sphere)
 {
     struct search search = {.packed = packed, .holder = body_packed(packed, sphere), .sphere = sphere};
     layout_ivec4 *tags = &packed->spheres[sphere].tags;
-    if (body_surface(packed, sphere)->tags.SURFACE_KIND == KIND_TRANSPARENT && !tags->HOLDS_RAYS)
-        tags->HOLDS_RAYS = another_reaches_in(&search);
+    if (body_surface(packed, sphere)->tags.SURFACE_KIND == KIND_TRANSPARENT && another_reaches_in(&search))
+        tags->HOLDS_RAYS |= BY_SURFACE;
+}
+
+static void look_inside_others(struct packed_scene *packed)
+{
+    const struct hierarchy *others = packed->hierarchy;
+    struct progress progress;
+    progress_start(&progress, "looking into glass", others->node_count, false);
+#pragma omp parallel for schedule(dynamic) if (others->node_count > LEAST_PARALLEL)
+    for (uint32_t first = 0; first < others->node_count; first += NODES_A_PART) {
+        for (uint32_t i = first; i < others->node_count && i < first + NODES_A_PART; ++i)
+            if (others->nodes[i].left == 0)
+                look_inside(packed, (int)others->nodes[i].sphere);
+#pragma omp critical(hollow_progress)
+        progress_advance(&progress, NODES_A_PART);
+    }
+    progress_end(&progress);
+}
+
+/* Whether what reaches into the spheres is the same: all but the camera and the lights. */
+static bool same_bodies(const struct packed_scene *a, const struct packed_scene *b)
+{
+    bool same = a->hierarchy == b->hierarchy && a->sphere_count == b->sphere_count &&
+                a->surface_count == b->surface_count && a->plane_count == b->plane_count &&
+                memcmp(a->surfaces, b->surfaces, sizeof *a->surfaces * (size_t)a->surface_count) == 0 &&
+                memcmp(a->planes, b->planes, sizeof *a->planes * (size_t)a->plane_count) == 0;
+    for (int i = 0; i < a->sphere_count && same; ++i)
+        same = a->spheres[i].tags.SURFACE == b->spheres[i].tags.SURFACE &&
+               memcmp(&a->spheres[i].center_radius, &b->spheres[i].center_radius, sizeof(layout_vec4)) == 0;
+    return same;
 }
 
 /* A ray or a shading point can lie within a sphere other than on it if the camera is in it, or if it is
  * transparent and another surface reaches in. That is asked in the order of the hierarchy, so that spheres
  * one after the other look at the same of its nodes. */
-enum status hollow_pack(struct packed_scene *packed)
+void hollow_pack(const struct packed_scene *other, struct packed_scene *packed)
 {
-    const struct hierarchy *others = packed->hierarchy;
-    const uint32_t nodes = others ? others->node_count : 0;
     const struct dvec3 camera = dvec3_of_vec4(packed->view.position);
+    const bool known = other && same_bodies(other, packed);
 #pragma omp parallel for if (packed->sphere_count > LEAST_PARALLEL)
     for (int i = 0; i < packed->sphere_count; ++i) {
-        packed->spheres[i].tags.HOLDS_RAYS = body_distance(body_packed(packed, i), camera) < 0;
+        const bool holds_camera = body_distance(body_packed(packed, i), camera) < 0;
+        packed->spheres[i].tags.HOLDS_RAYS =
+            (holds_camera ? BY_CAMERA : 0) | (known ? other->spheres[i].tags.HOLDS_RAYS & BY_SURFACE : 0);
         packed->spheres[i].tags.HOLDS_LIGHTS = holds_lights(packed, i);
     }
-    bool glass = false;
-    for (int i = 0; i < packed->surface_count; ++i)
-        glass |= packed->surfaces[i].tags.SURFACE_KIND == KIND_TRANSPARENT;
+    if (known)
+        return;
     for (int i = 0; i < packed->looped_spheres; ++i)
         look_inside(packed, i);
-#pragma omp parallel for schedule(dynamic, 1024) if (nodes > LEAST_PARALLEL)
-    for (uint32_t i = 0; i < (glass ? nodes : 0); ++i)
-        if (others->nodes[i].left == 0 && !interrupt_requested())
-            look_inside(packed, (int)others->nodes[i].sphere);
-    return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_DONE;
+    bool glass = false;
+    for (int i = packed->looped_spheres; i < packed->surface_count; ++i)
+        glass |= packed->surfaces[i].tags.SURFACE_KIND == KIND_TRANSPARENT;
+    if (glass)
+        look_inside_others(packed);
 }

@@ -10,7 +10,7 @@ struct candidate {
 /* The largest spheres, the largest first; of equally large ones the first of the file. */
 struct largest {
     size_t count;
-    struct candidate candidates[MOST_GIANTS];
+    struct candidate candidates[MOST_LARGE];
 };
 
 static void consider(struct largest *largest, struct body body, size_t sphere)
@@ -18,9 +18,9 @@ static void consider(struct largest *largest, struct body body, size_t sphere)
     size_t place = largest->count;
     while (place > 0 && body.number > largest->candidates[place - 1].body.number)
         --place;
-    if (place == MOST_GIANTS)
+    if (place == MOST_LARGE)
         return;
-    if (largest->count < MOST_GIANTS)
+    if (largest->count < MOST_LARGE)
         ++largest->count;
     for (size_t i = largest->count - 1; i > place; --i)
         largest->candidates[i] = largest->candidates[i - 1];
@@ -82,14 +82,14 @@ struct looped looped_choose(const struct scene *scene)
     if (looped.sphere_count <= MOST_LOOPED)
         return looped;
     struct extent extent = extent_without(scene, &largest);
-    looped.giant_count = MOST_GIANTS;
-    for (; looped.giant_count > 0; --looped.giant_count) { /* the smallest first: if it is one, all are */
-        const struct body body = largest.candidates[looped.giant_count - 1].body;
+    looped.large_count = MOST_LARGE;
+    for (; looped.large_count > 0; --looped.large_count) { /* the smallest first: if it is one, all are */
+        const struct body body = largest.candidates[looped.large_count - 1].body;
         if (2 * body.number > longest_side(&extent) / 2)
             break;
         include(&extent, body);
     }
-    for (size_t i = 0; i < looped.giant_count; ++i)
-        looped.giants[i] = largest.candidates[i].sphere;
+    for (size_t i = 0; i < looped.large_count; ++i)
+        looped.large[i] = largest.candidates[i].sphere;
     return looped;
 }

@@ -7,16 +7,16 @@
 
 enum {
     MOST_LOOPED = 24, /* spheres that are tried one after the other as fast as others are found */
-    MOST_GIANTS = 16
+    MOST_LARGE = 16
 };
 
 /* Which of a scene's spheres, numbered in the order of the file, are looped over: all, if they are few; of
- * many only the giants, which would fill the boxes and the grid of what finds the others: spheres with a
- * diameter of more than half the longest side of the box around all that are no giants. */
+ * many only the largest, which would fill the boxes and the grid of what finds the others: spheres with a
+ * diameter of more than half the longest side of the box around all that are not so large. */
 struct looped {
     size_t sphere_count; /* of the scene */
-    size_t giant_count;
-    size_t giants[MOST_GIANTS];
+    size_t large_count;
+    size_t large[MOST_LARGE];
 };
 
 struct looped looped_choose(const struct scene *scene);
@@ -24,8 +24,8 @@ struct looped looped_choose(const struct scene *scene);
 static inline bool is_looped(const struct looped *looped, size_t sphere)
 {
     bool is = looped->sphere_count <= MOST_LOOPED;
-    for (size_t i = 0; i < looped->giant_count; ++i)
-        is |= looped->giants[i] == sphere;
+    for (size_t i = 0; i < looped->large_count; ++i)
+        is |= looped->large[i] == sphere;
     return is;
 }
 

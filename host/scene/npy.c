@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/interrupt.h"
+#include "base/progress.h"
 #include "scene/scene.h"
 
 enum { PIECE = 1 << 20 }; /* bytes that are read at a time, a multiple of the size of a row */
@@ -42,7 +42,7 @@ static ssize_t read_whole(int file, void *bytes, size_t size)
     size_t got = 0;
     while (got < size) {
         ssize_t part = read(file, (char *)bytes + got, size - got);
-        if (part < 0 && errno == EINTR && !interrupt_requested())
+        if (part < 0 && errno == EINTR)
             continue;
         if (part < 0)
             return -1;
@@ -106,6 +106,8 @@ static enum status read_values(struct reading *reading)
     size_t left = reading->header.rows * NPY_COLUMNS * reading->header.value_size;
     unsigned char *piece = malloc(PIECE);
     enum status status = STATUS_DONE;
+    struct progress progress;
+    progress_start(&progress, "reading spheres", left, false);
     if (!piece || !reading->rows) {
         snprintf(reading->message, NPY_MESSAGE, "no memory for %zu spheres", reading->header.rows);
         status = STATUS_UNABLE;
@@ -114,15 +116,15 @@ static enum status read_values(struct reading *reading)
         size_t size = left < PIECE ? left : PIECE;
         ssize_t got = read_whole(reading->file, piece, size);
         left -= size;
-        if (interrupt_requested())
-            status = STATUS_INTERRUPTED;
-        else if (got < 0)
+        if (got < 0)
             status = refuse(reading->message, "%s", strerror(errno));
         else if ((size_t)got < size)
             status = refuse(reading->message, "is truncated: it became shorter while it was read");
         else
             status = take_values(reading, piece, size);
+        progress_advance(&progress, size);
     }
+    progress_end(&progress);
     free(piece);
     return status;
 }

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "base/interrupt.h"
+#include "base/progress.h"
 #include "scene/body.h"
 #include "scene/pack.h"
 
@@ -103,8 +103,8 @@ static struct query find_partners(const struct search *search, size_t number, si
     } else if (more && search->hierarchy.node_count > 0) {
         const layout_vec4 ball = enlarged(search, query.body);
         hierarchy_visit(&search->hierarchy,
-                        body_box((struct body){true, dvec3_of_vec4(ball), (double)ball.w}), compare_sphere,
-                        &query);
+                        body_box((struct body){true, dvec3_of_vec4(ball), (double)ball.w, false}),
+                        compare_sphere, &query);
     }
     return query;
 }
@@ -113,20 +113,21 @@ static struct query find_partners(const struct search *search, size_t number, si
 static void find_pairs(const struct search *search, struct overlaps *overlaps)
 {
     size_t pairs = 0, later = SIZE_MAX;
-    for (size_t first = 0, size = FIRST_BLOCK, end;
-         first < search->body_count && pairs < OVERLAP_MOST_PAIRS && !interrupt_requested();
+    struct progress progress;
+    progress_start(&progress, "looking for overlaps", search->body_count, false);
+    for (size_t first = 0, size = FIRST_BLOCK, end; first < search->body_count && pairs < OVERLAP_MOST_PAIRS;
          first = end, size = size < MOST_IN_BLOCK ? 2 * size : size) {
         end = search->body_count - first < size ? search->body_count : first + size;
 #pragma omp parallel for reduction(+ : pairs) reduction(min : later) schedule(dynamic, 16)                           \
     if (search->body_count > LEAST_PARALLEL)
         for (size_t i = first; i < end; ++i) {
-            if (interrupt_requested())
-                continue;
             size_t found = find_partners(search, i, OVERLAP_MOST_PAIRS).pairs;
             pairs += found;
             later = found > 0 && i < later ? i : later;
         }
+        progress_advance(&progress, end - first);
     }
+    progress_end(&progress);
     if (pairs == 0)
         return;
     overlaps->pairs = pairs < OVERLAP_MOST_PAIRS ? pairs : OVERLAP_MOST_PAIRS;
@@ -187,5 +188,5 @@ enum status overlaps_find(const struct scene *scene, struct overlaps *overlaps)
     free(search.parts);
     free(search.planes);
     free(search.spheres);
-    return status == STATUS_DONE && interrupt_requested() ? STATUS_INTERRUPTED : status;
+    return status;
 }

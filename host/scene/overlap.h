@@ -17,8 +17,7 @@ struct overlaps {
         later; /* the pair that is complete first in the file; of its partners the first */
 };
 
-/* Finds transparent bodies whose surfaces cross. Otherwise than STATUS_DONE: STATUS_UNABLE (reported) without
- * memory, STATUS_INTERRUPTED. */
+/* Finds transparent bodies whose surfaces cross. STATUS_UNABLE (reported) without memory. */
 enum status overlaps_find(const struct scene *scene, struct overlaps *overlaps);
 
 #endif

@@ -2,10 +2,13 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/interrupt.h"
 #include "scene/body.h"
+#include "scene/giant.h"
 #include "scene/hollow.h"
 #include "scene/looped.h"
 #include "scene/truncation.h"
@@ -16,10 +19,19 @@ static const double pi = 3.14159265358979323846;
 /* Keeps the largest possible radiance, at NEAREST_LIGHT_SQUARED, far inside float. */
 static const double brightest = 1e12;
 
+/* In scene units: its square, and what float leaves of it behind the point, is far from denormals. */
+static const double least_radius = 0x1p-50;
+
+/* Of the distance from the middle of the image plane to a corner, by that to the camera: its square is
+ * finite. */
+static const double widest = 0x1p60;
+
 struct packing {
     const struct scene *scene;
     double scale; /* from metres to scene units, a power of two */
     struct looped looped;
+    const struct packed_scene *other; /* whose hierarchy may be shared; may be NULL */
+    int others_before;                /* spheres that are not looped over, before the body that is packed */
     struct packed_scene *packed;
 };
 
@@ -85,29 +97,39 @@ static bool is_transparent(const PackedSurface *surface)
 
 /* Whether the packed body i is opaque and coincides with this one, which is then never met: ties go to the
  * first. */
-static bool hides(const struct packed_scene *packed, int i, bool is_ball, layout_vec4 shape)
+static bool hides(const struct packed_scene *packed, int i, bool is_ball, layout_vec4 shape, float curvature)
 {
     layout_vec4 first = body_shape(packed, i);
     return is_ball == (i < packed->sphere_count) && !is_transparent(body_surface(packed, i)) &&
-           first.x == shape.x && first.y == shape.y && first.z == shape.z && first.w == shape.w;
+           body_surface(packed, i)->more_parameters.CURVATURE == curvature && first.x == shape.x &&
+           first.y == shape.y && first.z == shape.z && first.w == shape.w;
 }
 
 /* A plane, or a sphere that is looped over. */
 static void pack_body(struct packing *packing, const struct scene_object *object, size_t row, int order)
 {
     struct packed_scene *packed = packing->packed;
-    const struct body body = body_of(object, row);
+    struct body body = body_of(object, row);
     PackedSurface surface = pack_surface(packing->scene, object, order);
+    surface.tags.OTHERS_BEFORE = packing->others_before;
+    const bool giant = giant_is(packing->scene, body);
     bool turned = !body.is_ball && !is_transparent(&surface) &&
                   body_distance(body, dvec3_of(packing->scene->camera.position)) < 0;
     double sign = turned ? -1 : 1;
-    layout_vec4 shape = to_vec4(dvec3_scale(body.is_ball ? packing->scale : sign, body.vector),
-                                sign * packing->scale * body.number);
+    body.vector = dvec3_scale(body.is_ball ? packing->scale : sign, body.vector);
+    body.number = sign * packing->scale * body.number;
+    layout_vec4 shape = to_vec4(body.vector, body.number);
+    if (giant) {
+        const struct giant_shape giant_shape = giant_shape_of(body);
+        shape = to_vec4(giant_shape.gradient, giant_shape.offset);
+        surface.more_parameters.CURVATURE = to_float(giant_shape.curvature);
+    }
     for (int i = 0; i < body_count(packed); ++i)
-        if (hides(packed, i, body.is_ball, shape))
+        if (hides(packed, i, body.is_ball, shape, surface.more_parameters.CURVATURE))
             return;
     surface.tags.CASTS_SHADOWS = !body.is_ball && is_transparent(&surface);
     if (body.is_ball) {
+        packed->giants |= (unsigned)giant << packed->sphere_count;
         packed->spheres[packed->sphere_count++] =
             (struct PackedSphere){shape, {.SURFACE = packed->surface_count, .FILE_ORDER = order}};
         packed->surfaces[packed->surface_count++] = surface;
@@ -125,6 +147,8 @@ static void pack_planes_and_looped(struct packing *packing)
         for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row, ++order)
             if (scene->objects[i].type == OBJECT_PLANE || is_looped(&packing->looped, sphere++))
                 pack_body(packing, &scene->objects[i], row, order);
+            else
+                ++packing->others_before;
 }
 
 /* The other spheres of an object, whose first body has that place in the file; *sphere is its first one's
@@ -145,28 +169,48 @@ static void pack_rows(struct packing *packing, const struct scene_object *object
         packed->surfaces[packed->surface_count++] = pack_surface(packing->scene, object, order);
 }
 
+/* Whether the spheres that are not looped over are the same. */
+static bool same_others(const struct packed_scene *a, const struct packed_scene *b)
+{
+    bool same = a->sphere_count == b->sphere_count && a->looped_spheres == b->looped_spheres;
+    for (int i = a->looped_spheres; i < a->sphere_count && same; ++i)
+        same = memcmp(&a->spheres[i].center_radius, &b->spheres[i].center_radius, sizeof(layout_vec4)) == 0;
+    return same;
+}
+
+static enum status find_hierarchy(struct packing *packing)
+{
+    struct packed_scene *packed = packing->packed;
+    if (packing->other && packing->other->hierarchy && same_others(packing->other, packed)) {
+        packed->hierarchy = packing->other->hierarchy;
+        ++packed->hierarchy->owners;
+        return STATUS_DONE;
+    }
+    struct hierarchy *hierarchy = calloc(1, sizeof *hierarchy);
+    if (!hierarchy) {
+        log_error("%s: no memory for a hierarchy", packing->scene->path);
+        return STATUS_UNABLE;
+    }
+    enum status status =
+        hierarchy_build(packed->spheres, (uint32_t)packed->looped_spheres,
+                        (uint32_t)(packed->sphere_count - packed->looped_spheres), hierarchy);
+    hierarchy->owners = 1;
+    packed->hierarchy = hierarchy;
+    return status;
+}
+
 static enum status pack_others(struct packing *packing)
 {
     const struct scene *scene = packing->scene;
     struct packed_scene *packed = packing->packed;
     size_t sphere = 0;
     int order = 0;
-    for (size_t i = 0; i < scene->object_count && !interrupt_requested(); ++i) {
+    for (size_t i = 0; i < scene->object_count; ++i) {
         if (scene->objects[i].type != OBJECT_PLANE)
             pack_rows(packing, &scene->objects[i], order, &sphere);
         order += (int)object_body_count(&scene->objects[i]);
     }
-    if (interrupt_requested())
-        return STATUS_INTERRUPTED;
-    if (packed->sphere_count == packed->looped_spheres)
-        return STATUS_DONE;
-    packed->hierarchy = calloc(1, sizeof *packed->hierarchy);
-    if (!packed->hierarchy) {
-        log_error("%s: no memory for a hierarchy", scene->path);
-        return STATUS_UNABLE;
-    }
-    return hierarchy_build(packed->spheres, (uint32_t)packed->looped_spheres,
-                           (uint32_t)(packed->sphere_count - packed->looped_spheres), packed->hierarchy);
+    return packed->sphere_count == packed->looped_spheres ? STATUS_DONE : find_hierarchy(packing);
 }
 
 static bool lies_behind(const struct packed_scene *packed, int plane, struct dvec3 point)
@@ -235,30 +279,68 @@ static void share_roughness(struct packed_scene *packed)
     }
 }
 
+/* Whether float's exponents suffice for a sphere of the object. */
+static bool is_large_enough(const struct packing *packing, const struct scene_object *object, size_t row)
+{
+    const struct body body = body_of(object, row);
+    char of_row[32] = "";
+    if (!body.is_ball || body.number * packing->scale >= least_radius)
+        return true;
+    if (object->type == OBJECT_SPHERES)
+        snprintf(of_row, sizeof of_row, " row %zu", row);
+    log_error("%s:%d:%d: sphere \"%s\"%s: radius must be at least %g of the scene's extent, %.3g, is %g",
+              packing->scene->path, object->place.line, object->place.column, object->name, of_row,
+              least_radius, least_radius / packing->scale, body.number);
+    return false;
+}
+
+static enum status check_ranges(const struct packing *packing)
+{
+    const struct scene *scene = packing->scene;
+    const struct packed_scene *packed = packing->packed;
+    const double half = tan(scene->camera.fov_y_degrees / 180 * pi / 2);
+    for (size_t i = 0; i < scene->object_count; ++i)
+        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row)
+            if (!is_large_enough(packing, &scene->objects[i], row))
+                return STATUS_REFUSED;
+    if (half * (1 + (double)packed->width / packed->height) < widest)
+        return STATUS_DONE;
+    log_error("%s: fov_y %.17g is too near to 180 degrees for a picture of %dx%d", scene->path,
+              scene->camera.fov_y_degrees, packed->width, packed->height);
+    return STATUS_REFUSED;
+}
+
 static enum status pack_contents(struct packing *packing)
 {
     const struct scene *scene = packing->scene;
+    enum status status = check_ranges(packing);
+    if (status != STATUS_DONE)
+        return status;
     pack_view(packing);
     pack_planes_and_looped(packing);
-    enum status status = pack_others(packing);
+    status = pack_others(packing);
     for (size_t i = 0; i < scene->light_count && status == STATUS_DONE; ++i)
         status = pack_light(packing, &scene->lights[i]);
-    if (status == STATUS_DONE)
-        status = hollow_pack(packing->packed);
-    if (status == STATUS_DONE)
-        share_roughness(packing->packed);
-    return status;
+    if (status != STATUS_DONE)
+        return status;
+    hollow_pack(packing->other, packing->packed);
+    share_roughness(packing->packed);
+    return STATUS_DONE;
+}
+
+static double extent_of(const struct scene *scene, struct body body)
+{
+    if (giant_is(scene, body))
+        return fabs(giant_height(body));
+    return body.is_ball ? dvec3_largest(body.vector) + body.number : fabs(body.number);
 }
 
 double pack_scale(const struct scene *scene)
 {
     double extent = dvec3_largest(dvec3_of(scene->camera.position));
     for (size_t i = 0; i < scene->object_count; ++i)
-        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row) {
-            const struct body body = body_of(&scene->objects[i], row);
-            extent =
-                fmax(extent, body.is_ball ? dvec3_largest(body.vector) + body.number : fabs(body.number));
-        }
+        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row)
+            extent = fmax(extent, extent_of(scene, body_of(&scene->objects[i], row)));
     for (size_t i = 0; i < scene->light_count; ++i) {
         const struct scene_light *light = &scene->lights[i];
         if (light->type == LIGHT_POINT)
@@ -276,6 +358,13 @@ double pack_scale(const struct scene *scene)
 enum status pack_scene(const struct scene *scene, const struct picture_settings *settings,
                        struct packed_scene *packed)
 {
+    return pack_scene_beside(NULL, scene, settings, packed);
+}
+
+enum status pack_scene_beside(const struct packed_scene *other, const struct scene *scene,
+                              const struct picture_settings *settings, struct packed_scene *packed)
+{
+    interrupt_ends_process(true);
     const struct looped looped = looped_choose(scene);
     *packed = (struct packed_scene){
         .width = (int)settings->width,
@@ -289,7 +378,8 @@ enum status pack_scene(const struct scene *scene, const struct picture_settings 
         .point_lights = calloc(scene->light_count + 1, sizeof *packed->point_lights),
         .quad_lights = calloc(scene->light_count + 1, sizeof *packed->quad_lights),
     };
-    struct packing packing = {.scene = scene, .scale = pack_scale(scene), .looped = looped, .packed = packed};
+    struct packing packing = {
+        .scene = scene, .scale = pack_scale(scene), .looped = looped, .other = other, .packed = packed};
     enum status status = STATUS_UNABLE;
     if (packed->spheres && packed->surfaces && packed->planes && packed->point_lights && packed->quad_lights)
         status = pack_contents(&packing);
@@ -300,6 +390,7 @@ enum status pack_scene(const struct scene *scene, const struct picture_settings 
         truncation_pack(packed, settings->has_max_error ? settings->max_error : -1);
     else
         pack_destroy(packed);
+    interrupt_ends_process(false);
     return status;
 }
 
@@ -307,9 +398,10 @@ void pack_destroy(struct packed_scene *packed)
 {
     free(packed->spheres);
     free(packed->surfaces);
-    if (packed->hierarchy)
+    if (packed->hierarchy && --packed->hierarchy->owners == 0) {
         hierarchy_destroy(packed->hierarchy);
-    free(packed->hierarchy);
+        free(packed->hierarchy);
+    }
     free(packed->planes);
     free(packed->point_lights);
     free(packed->quad_lights);

@@ -248,9 +248,7 @@ static void *read_list(struct reading *reading, const char *name, size_t item_si
     char *list = items > 0 ? calloc((size_t)items, item_size) : NULL;
     reading->report->no_memory |= items > 0 && !list;
     void *at = NULL;
-    for (*count = 0;
-         list && *count < (size_t)items && !reading->report->no_memory && !reading->report->interrupted;
-         ++*count) {
+    for (*count = 0; list && *count < (size_t)items && !reading->report->no_memory; ++*count) {
         const struct yaml_value item =
             yaml_read(reading->report, fy_node_sequence_iterate(value.node, &at), value.written);
         read_item(reading, &item, list + *count * item_size);
@@ -292,6 +290,7 @@ enum status scene_read_text(const char *path, const char *text, size_t length, s
         .light_samples = 32,
     };
     struct diagnostics report = {.path = path, .text = text, .length = length, .no_memory = !scene->path};
+    interrupt_ends_process(true);
     struct fy_document *document = yaml_load(&report);
     if (document) {
         const struct yaml_value root = yaml_read(&report, fy_document_root(document), NULL);
@@ -301,11 +300,9 @@ enum status scene_read_text(const char *path, const char *text, size_t length, s
                      "the file is empty; a scene needs \"camera\" and \"image\"");
     }
     fy_document_destroy(document);
+    interrupt_ends_process(false);
 
-    enum status status = report.interrupted ? STATUS_INTERRUPTED
-                         : report.no_memory ? STATUS_UNABLE
-                         : report.count > 0 ? STATUS_REFUSED
-                                            : STATUS_DONE;
+    enum status status = report.no_memory ? STATUS_UNABLE : report.count > 0 ? STATUS_REFUSED : STATUS_DONE;
     report_print(&report);
     if (status == STATUS_UNABLE)
         log_error("no memory to read the scene file %s", path);

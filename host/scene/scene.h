@@ -90,7 +90,7 @@ enum {
  * caller owns *scene and frees it with scene_destroy(). Otherwise *scene is empty, and everything wrong that
  * could be found has been reported on standard error as "path:line:column: error: ..." with the line and a
  * caret: STATUS_REFUSED for a file that is not a scene, STATUS_UNABLE where there is no memory;
- * STATUS_INTERRUPTED. */
+ * STATUS_INTERRUPTED where the file was being waited for. */
 enum status scene_read(const char *path, struct scene *scene);
 
 /* The same for a scene file's content in memory; path is for the messages, for scene->path, and for the

@@ -29,7 +29,6 @@ void spheres_file_read(struct mapping *mapping, const struct npy_column columns[
     if (status == STATUS_REFUSED || status == STATUS_UNABLE)
         schema_refuse(mapping, value.written, "%s: %s", name, message);
     mapping->report->no_memory |= status == STATUS_UNABLE;
-    mapping->report->interrupted |= status == STATUS_INTERRUPTED;
     free(name);
     free(path);
 }

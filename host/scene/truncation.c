@@ -11,7 +11,7 @@ static const double least_allowance = 0x1p-60;
 static const double spending = 3.2;
 
 /* More than a light of this scene can give, should no better bound be found. */
-static const float unbounded = 0x1p100f;
+static const float unbounded = (float)UNBOUNDED;
 
 /* Added to the bound, so that it is not 0. */
 static const double darkest = 0x1p-30f;
@@ -125,13 +125,13 @@ static double rounding(const struct packed_scene *scene, double radiance)
 }
 
 /* The normal of two parallel mirrors that face each other, with w = 1, if every other plane is matte and
- * stands across them; otherwise 0. So it is where there are spheres that are not looped over: whether a ray
- * escapes is found out by trying all spheres, not only those on its way. */
+ * stands across them; otherwise 0. So it is where there are giants, or spheres that are not looped over:
+ * whether a ray escapes is found out by trying all spheres, not only those on its way. */
 static layout_vec4 between_mirrors(const struct packed_scene *scene)
 {
     const layout_vec4 none = {0, 0, 0, 0};
     int mirror = 0;
-    if (scene->sphere_count > scene->looped_spheres)
+    if (scene->sphere_count > scene->looped_spheres || scene->giants != 0)
         return none;
     while (mirror < scene->plane_count && scene->planes[mirror].surface.tags.SURFACE_KIND != KIND_MIRROR)
         ++mirror;
@@ -170,9 +170,9 @@ void truncation_pack(struct packed_scene *scene, double max_error)
 
 double truncation_bound(const struct packed_scene *scene, double charges)
 {
-    if (!(charges > 0))
+    if (charges == 0)
         return 0;
-    if (scene->view.truncation.RADIANCE_BOUND == unbounded)
+    if (scene->view.truncation.RADIANCE_BOUND == unbounded || isnan(charges))
         return INFINITY;
     double bound = (double)scene->view.truncation.RADIANCE_BOUND;
     return charges * bound / scene->samples * (1 + slack) + rounding(scene, bound);

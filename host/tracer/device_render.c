@@ -16,6 +16,7 @@ static enum status create_tracer(struct vulkan_context *context, const struct re
     const struct tracer_options options = {
         .double_precision = plan->precision == PRECISION_DOUBLE,
         .fast = plan->fast,
+        .shaders = plan->shaders,
         .output = output,
         .charges = output == OUTPUT_RADIANCE && plan->bound_truncation,
     };
@@ -33,10 +34,23 @@ static enum status render_output(struct vulkan_context *context, const struct re
     struct tracer *tracer;
     struct progress progress;
     struct tracer_times unused;
-    progress_start(&progress, tasks[output], (uint64_t)plan->window.width * plan->window.height, plan->quiet);
+    struct reference_rays sum = {0};
+    progress_start(&progress, tasks[output],
+                   (uint64_t)plan->window.width * plan->window.height * (uint64_t)plan->scene->samples,
+                   plan->quiet);
     enum status status = create_tracer(context, plan, output, &tracer);
-    if (status == STATUS_DONE)
-        status = tracer_render_values(tracer, plan->window, values, &progress, &unused);
+    for (unsigned y = 0; y < plan->window.height && status == STATUS_DONE;) {
+        const struct window strip = window_strip(plan->window, plan->strips, y);
+        status = tracer_render_values(tracer, strip, values, &progress, &unused);
+        y += strip.height;
+        if (values->rays) {
+            sum.primary += values->rays->primary;
+            sum.secondary += values->rays->secondary;
+            sum.shadow += values->rays->shadow;
+        }
+    }
+    if (values->rays)
+        *values->rays = sum;
     progress_end(&progress);
     tracer_destroy(&tracer);
     return status;

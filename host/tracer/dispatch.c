@@ -180,11 +180,11 @@ enum status dispatch_frame_start(const struct dispatcher *dispatcher, struct dis
 }
 
 enum status dispatch_frame_wait(const struct dispatcher *dispatcher, struct dispatch_frame *frame,
-                                double *device_ms, bool *finished)
+                                double *device_ms, uint32_t *unfinished)
 {
     enum status status = pass_frame_wait(&frame->frame, device_ms);
     frame->under_way = false;
-    *finished = !dispatcher->size.resumable || *(const uint32_t *)frame->buffers[OUTCOME].mapped == 0;
+    *unfinished = dispatcher->size.resumable ? *(const uint32_t *)frame->buffers[OUTCOME].mapped : 0;
     return status;
 }
 

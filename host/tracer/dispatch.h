@@ -21,8 +21,10 @@ enum status scene_buffer_create(struct vulkan_context *context, const struct pac
                                 bool storage, struct scene_buffer *scene_buffer);
 void scene_buffer_destroy(struct vulkan_context *context, struct scene_buffer *scene_buffer);
 
-/* Copies a scene without a hierarchy and with as many objects and lights over the one in the buffer. */
-void scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_scene *scene);
+/* Copies a scene with as many objects and lights over the one in the buffer. Where it has another number of
+ * surfaces it returns false and changes nothing. */
+bool scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_scene *old,
+                         const struct packed_scene *scene);
 
 enum { CHANNELS = 4 };
 
@@ -86,10 +88,10 @@ void dispatch_frame_destroy(const struct dispatcher *dispatcher, struct dispatch
 /* Starts the frame's portion, but for its number of threads, which it sets. Failures are reported. */
 enum status dispatch_frame_start(const struct dispatcher *dispatcher, struct dispatch_frame *frame);
 
-/* Waits for it, and adds the device's time to *device_ms. *finished: the portion's samples are in the values;
- * otherwise the next dispatch of the portion has to go on. */
+/* Waits for it, and adds the device's time to *device_ms. *unfinished: the pixels of which not all the
+ * portion's samples are in the values, so that the next dispatch has to go on with them. */
 enum status dispatch_frame_wait(const struct dispatcher *dispatcher, struct dispatch_frame *frame,
-                                double *device_ms, bool *finished);
+                                double *device_ms, uint32_t *unfinished);
 
 /* Brings the values where the host reads them well. */
 enum status dispatch_frame_fetch(const struct dispatcher *dispatcher, struct dispatch_frame *frame);

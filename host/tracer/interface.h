@@ -36,6 +36,7 @@ enum whitted_variant {
     WHITTED_EXACT_EVENTS,
     WHITTED_CORRECTED_EVENTS,
     WHITTED_DOUBLE_EVENTS,
+    WHITTED_VARIANTS
 };
 
 /* Which of the shader's variants is needed. */
@@ -45,24 +46,17 @@ struct shader_choice {
 };
 
 struct tracer_options {
-    bool double_precision; /* exact mode only, on a device with fp64 */
-    bool fast;             /* contraction and built-in functions allowed */
-    int output;            /* OUTPUT_ of scene_layout.h */
-    bool charges;          /* pixels tell what they are charged for rays that are not traced */
-    uint32_t event_room;   /* 0: no events are recorded; exact mode only */
-    struct spirv code;     /* of the shader that tracer_shader() tells; empty: the built-in one */
+    bool double_precision;         /* exact mode only, on a device with fp64 */
+    bool fast;                     /* contraction and built-in functions allowed */
+    int output;                    /* OUTPUT_ of scene_layout.h */
+    bool charges;                  /* pixels tell what they are charged for rays that are not traced */
+    uint32_t event_room;           /* 0: no events are recorded; exact mode only */
+    struct spirv code;             /* of the shader that tracer_shader() tells; empty: the build's */
+    struct shader_folder *shaders; /* that the code is to come from, instead; NULL: none */
 };
 
 /* shaders/whitted.comp as compiled by the build, the scene in uniform or in storage buffers; only the latter
  * has a hierarchy. */
 struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage);
-
-/* The options with which the build has glslangValidator compile it; NULL behind the last. Not for the
- * variants that tell of one pixel. */
-const char *const *whitted_defines(enum whitted_variant variant, bool scene_in_storage);
-
-/* Whether the code, which is valid, uses no other buffers than a tracer provides: drivers crash otherwise. If
- * not, problem says what is wrong. */
-bool tracer_provides(struct spirv code, struct shader_choice choice, char problem[128]);
 
 #endif

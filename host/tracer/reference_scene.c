@@ -2,30 +2,47 @@
 
 #include <unistd.h>
 
+#include "base/interrupt.h"
+#include "base/progress.h"
+#include "scene/hierarchy.h"
+#include "sphere_tree.h"
+
 int reference_threads(unsigned threads)
 {
     return threads ? (int)threads : (int)sysconf(_SC_NPROCESSORS_ONLN);
 }
 
-enum status reference_scene_create(const struct packed_scene *packed, unsigned threads,
-                                   struct reference_scene *scene)
+static void advance(void *progress, uint32_t spheres)
 {
-    const int many = packed->sphere_count - packed->looped_spheres;
-    *scene = (struct reference_scene){.packed = *packed};
-    if (many <= 0 || packed->tree)
-        return STATUS_DONE;
-    scene->built = sphere_tree_create(packed->spheres, packed->looped_spheres, packed->sphere_count,
-                                      reference_threads(threads));
-    scene->packed.tree = scene->built;
-    if (scene->built)
-        return STATUS_DONE;
-    log_error("no memory for the reference's tree of %d spheres", many);
-    *scene = (struct reference_scene){.built = NULL};
-    return STATUS_UNABLE;
+    progress_advance(progress, spheres);
 }
 
-void reference_scene_destroy(struct reference_scene *scene)
+static struct sphere_tree *build_tree(const struct packed_scene *packed, unsigned threads)
 {
-    sphere_tree_destroy(&scene->built);
-    *scene = (struct reference_scene){.built = NULL};
+    struct progress progress;
+    progress_start(&progress, "reference's tree", (uint64_t)(packed->sphere_count - packed->looped_spheres),
+                   false);
+    interrupt_ends_process(true);
+    struct sphere_tree *tree =
+        sphere_tree_create(packed->spheres, packed->looped_spheres, packed->sphere_count,
+                           reference_threads(threads), advance, &progress);
+    interrupt_ends_process(false);
+    progress_end(&progress);
+    return tree;
+}
+
+enum status reference_scene(const struct packed_scene *packed, unsigned threads, struct packed_scene *scene)
+{
+    struct hierarchy *hierarchy = packed->hierarchy;
+    *scene = *packed;
+    if (!hierarchy)
+        return STATUS_DONE;
+    if (!hierarchy->tree)
+        hierarchy->tree = build_tree(packed, threads);
+    scene->tree = hierarchy->tree;
+    if (scene->tree)
+        return STATUS_DONE;
+    log_error("no memory for the reference's tree of %d spheres",
+              packed->sphere_count - packed->looped_spheres);
+    return STATUS_UNABLE;
 }

@@ -10,6 +10,33 @@ const char *precision_name(enum precision precision)
     return names[precision];
 }
 
+/* Renders the plan's strips one after the other. */
+static enum status render_strips(render_once *render, void *renderer, const struct render_plan *plan,
+                                 const struct image *image, struct progress *progress,
+                                 struct tracer_times *times)
+{
+    enum status status = STATUS_DONE;
+    *times = (struct tracer_times){0};
+    for (unsigned y = 0; y < plan->window.height && status == STATUS_DONE;) {
+        const size_t first = (size_t)y * image->width;
+        struct tracer_times of_strip;
+        struct render_plan strip = *plan;
+        strip.window = window_strip(plan->window, plan->strips, y);
+        struct image part = {
+            .width = image->width,
+            .height = strip.window.height,
+            .rgb = image->rgb + 3 * first,
+            .rgb64 = image->rgb64 ? image->rgb64 + 3 * first : NULL,
+            .truncation = image->truncation ? image->truncation + first : NULL,
+        };
+        status = render(renderer, &strip, &part, progress, &of_strip);
+        times->dispatch_ms += of_strip.dispatch_ms;
+        times->device_ms += of_strip.device_ms;
+        y += strip.window.height;
+    }
+    return status;
+}
+
 enum status render_repeatedly(render_once *render, void *renderer, const struct render_plan *plan,
                               struct rendering *rendering)
 {
@@ -27,13 +54,14 @@ enum status render_repeatedly(render_once *render, void *renderer, const struct 
         status = image->truncation ? STATUS_DONE : STATUS_UNABLE;
     }
     struct progress progress;
-    uint64_t pixels = (uint64_t)plan->window.width * plan->window.height;
-    progress_start(&progress, "rendering", pixels * (plan->repeat + 1), plan->quiet);
+    uint64_t samples = (uint64_t)plan->window.width * plan->window.height * (uint64_t)plan->scene->samples;
+    progress_start(&progress, "rendering", samples * (plan->repeat + 1), plan->quiet);
     if (status == STATUS_DONE)
-        status = render(renderer, plan, image, &progress, &rendering->times);
+        status = render_strips(render, renderer, plan, image, &progress, &rendering->times);
     rendering->first_dispatch_ms = rendering->times.dispatch_ms;
     for (unsigned i = 0; i < plan->repeat && status == STATUS_DONE; ++i) {
-        status = render(renderer, plan, image, &progress, &rendering->times);
+        rendering->rays = (struct reference_rays){0};
+        status = render_strips(render, renderer, plan, image, &progress, &rendering->times);
         warm_ms[i] = rendering->times.dispatch_ms;
         device_ms[i] = rendering->times.device_ms;
     }

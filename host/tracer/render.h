@@ -16,10 +16,12 @@ const char *precision_name(enum precision precision);
 struct render_plan {
     const struct packed_scene *scene;
     struct window window;
-    enum precision precision; /* quad only on the CPU */
-    unsigned threads;         /* of the CPU; 0: one a processor */
-    bool fast;                /* on a device */
-    unsigned repeat;          /* warm renderings after the first */
+    struct strips strips;          /* the window's rows; render_on_...() and spot_check() alone know them */
+    enum precision precision;      /* quad only on the CPU */
+    unsigned threads;              /* of the CPU; 0: one a processor */
+    bool fast;                     /* on a device */
+    struct shader_folder *shaders; /* of the device; NULL: the build's */
+    unsigned repeat;               /* warm renderings after the first */
     bool count_rays;
     bool bound_truncation; /* fill the image's truncation */
     bool quiet;

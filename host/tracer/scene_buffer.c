@@ -11,8 +11,7 @@ struct scene_part {
     VkFormat format; /* of texels */
 };
 
-static struct scene_part part_of(const struct packed_scene *scene, const struct sphere_records *records,
-                                 int i)
+static struct scene_part part_of(const struct packed_scene *scene, int i)
 {
     const struct scene_part parts[SCENE_BINDINGS] = {
         [VIEW] = {&scene->view, sizeof scene->view, 0},
@@ -21,8 +20,8 @@ static struct scene_part part_of(const struct packed_scene *scene, const struct 
         [POINT_LIGHTS] = {scene->point_lights, sizeof *scene->point_lights * (size_t)scene->point_light_count,
                           0},
         [QUAD_LIGHTS] = {scene->quad_lights, sizeof *scene->quad_lights * (size_t)scene->quad_light_count, 0},
-        [RECORDS] = {NULL, 4 * sizeof(uint32_t) * sphere_record_count(records), VK_FORMAT_R32G32B32A32_UINT},
-        [RECORD_WORDS] = {NULL, sizeof(uint32_t) * sphere_word_count(records), VK_FORMAT_R32_UINT},
+        [RECORDS] = {NULL, 4 * sizeof(uint32_t) * sphere_record_count(scene), VK_FORMAT_R32G32B32A32_UINT},
+        [RECORD_WORDS] = {NULL, sizeof(uint32_t) * sphere_word_count(scene), VK_FORMAT_R32_UINT},
         [SURFACES] = {scene->surfaces, sizeof *scene->surfaces * (size_t)scene->surface_count, 0},
     };
     return parts[i];
@@ -39,16 +38,15 @@ static VkDeviceSize part_range(struct scene_part part)
 
 bool scene_needs_storage(const struct vulkan_context *context, const struct packed_scene *scene)
 {
-    const struct sphere_records none = {.scene = scene};
     bool needed = scene->hierarchy;
     for (int i = 0; i < RECORDS; ++i)
-        needed |= part_range(part_of(scene, &none, i)) > context->properties.limits.maxUniformBufferRange;
+        needed |= part_range(part_of(scene, i)) > context->properties.limits.maxUniformBufferRange;
     return needed;
 }
 
 static void copy_part(const struct scene_buffer *scene_buffer, const struct packed_scene *scene, int i)
 {
-    const struct scene_part part = part_of(scene, &(struct sphere_records){.scene = scene}, i);
+    const struct scene_part part = part_of(scene, i);
     void *to = (unsigned char *)scene_buffer->buffer.mapped + scene_buffer->parts[i].offset;
     if (part.data)
         memcpy(to, part.data, part.size);
@@ -56,11 +54,30 @@ static void copy_part(const struct scene_buffer *scene_buffer, const struct pack
         ((struct LoopedSphere *)to)[k] = (struct LoopedSphere){scene->spheres[k], scene->surfaces[k]};
 }
 
-void scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_scene *scene)
+static void copy_parts(const struct scene_buffer *scene_buffer, const struct packed_scene *scene)
 {
     for (int i = 0; i < SCENE_BINDINGS; ++i)
         if (scene_buffer->parts[i].buffer)
             copy_part(scene_buffer, scene, i);
+}
+
+static void write_records(const struct scene_buffer *scene_buffer, const struct packed_scene *scene)
+{
+    unsigned char *mapped = scene_buffer->buffer.mapped;
+    sphere_records_write(scene, (uint32_t(*)[4])(void *)(mapped + scene_buffer->parts[RECORDS].offset),
+                         (uint32_t *)(void *)(mapped + scene_buffer->parts[RECORD_WORDS].offset));
+}
+
+bool scene_buffer_update(struct scene_buffer *scene_buffer, const struct packed_scene *old,
+                         const struct packed_scene *scene)
+{
+    if (old->surface_count != scene->surface_count)
+        return false;
+    copy_parts(scene_buffer, scene);
+    const size_t size = (size_t)scene->sphere_count * sizeof *scene->spheres;
+    if (scene->hierarchy && memcmp(old->spheres, scene->spheres, size) != 0)
+        write_records(scene_buffer, scene);
+    return true;
 }
 
 static enum status create_texels(struct vulkan_context *context, VkFormat format, uint64_t count, int i,
@@ -77,18 +94,17 @@ static enum status create_texels(struct vulkan_context *context, VkFormat format
 enum status scene_buffer_create(struct vulkan_context *context, const struct packed_scene *scene,
                                 bool storage, struct scene_buffer *scene_buffer)
 {
-    const struct sphere_records records = sphere_records_plan(scene);
     const int parts = storage ? SCENE_BINDINGS : RECORDS;
     VkDeviceSize size = 0;
     *scene_buffer = (struct scene_buffer){0};
     for (int i = 0; i < parts; ++i) {
-        const VkDeviceSize range = part_range(part_of(scene, &records, i));
+        const VkDeviceSize range = part_range(part_of(scene, i));
         scene_buffer->parts[i] = (VkDescriptorBufferInfo){.offset = size, .range = range};
         size += range;
     }
     enum status status = vulkan_buffer_create(context, "scene", size, BUFFER_UPLOAD, &scene_buffer->buffer);
     for (int i = 0; i < parts && status == STATUS_DONE; ++i) {
-        const struct scene_part part = part_of(scene, &records, i);
+        const struct scene_part part = part_of(scene, i);
         scene_buffer->parts[i].buffer = scene_buffer->buffer.buffer;
         if (part.format)
             status = create_texels(
@@ -99,11 +115,9 @@ enum status scene_buffer_create(struct vulkan_context *context, const struct pac
         scene_buffer_destroy(context, scene_buffer);
         return status;
     }
-    scene_buffer_update(scene_buffer, scene);
-    unsigned char *mapped = scene_buffer->buffer.mapped;
+    copy_parts(scene_buffer, scene);
     if (storage)
-        sphere_records_write(&records, (uint32_t(*)[4])(void *)(mapped + scene_buffer->parts[RECORDS].offset),
-                             (uint32_t *)(void *)(mapped + scene_buffer->parts[RECORD_WORDS].offset));
+        write_records(scene_buffer, scene);
     return STATUS_DONE;
 }
 

@@ -58,6 +58,7 @@ struct specialization specialize(const struct vulkan_context *context, const str
         .primary_rays_first = size->primary_rays_first && options->event_room == 0,
         .all_spheres = scene->sphere_count,
         .most_steps = size->most_steps,
+        .giants = scene->giants,
     };
     int last_sphere_order = -1;
     for (int i = 0; i < scene->surface_count; ++i)

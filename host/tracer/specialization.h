@@ -18,7 +18,7 @@ struct specialization {
     int32_t objects_a_turn;
     VkBool32 hoisted, primary_rays_first;
     int32_t all_spheres;
-    uint32_t most_steps;
+    uint32_t most_steps, giants;
 };
 
 /* Finds what the scene and the device, whose arithmetic is known, need, so that the pipeline holds nothing

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/interrupt.h"
+#include "base/progress.h"
 #include "scene/hierarchy.h"
 
 /* Where a box is on the grid over all boxes. The grid begins so many steps below them that the upper ends,
@@ -10,17 +12,20 @@
  * the shader would compute with where it takes boxes for spheres, and ignore. */
 enum { STEPS_BELOW = 257, STEPS = 65200 };
 
+enum { NODES_A_STEP = 16384 }; /* of the progress */
+
 /* A box of the stream is worth its record if it is smaller than that of the record above by this factor: 0.6
  * to 0.9 cost the same, within noise, 1 (all boxes) a tenth more. */
 static const float worth = 0.75F;
 
 struct writing {
-    const struct sphere_records *plan;
+    const struct packed_scene *scene;
     const struct hierarchy_node *nodes;
     float origin[3], step[3];
     uint32_t (*records)[4]; /* NULL: only counting */
     uint32_t *words, *sphere_words;
-    uint32_t next; /* record */
+    uint32_t next;             /* record of the stream */
+    struct progress *progress; /* in nodes, each of which is written twice */
 };
 
 static void lay_grid(struct writing *writing, const struct box *box)
@@ -56,7 +61,7 @@ static void write_box(const struct writing *writing, uint32_t record, const stru
 static void write_sphere(const struct writing *writing, uint32_t record, const struct hierarchy_node *leaf,
                          int which)
 {
-    const struct packed_scene *scene = writing->plan->scene;
+    const struct packed_scene *scene = writing->scene;
     const struct PackedSphere *sphere = &scene->spheres[leaf->sphere];
     const uint32_t number = leaf->sphere - (uint32_t)scene->looped_spheres;
     memcpy(writing->records[record], &sphere->center_radius, sizeof *writing->records);
@@ -65,7 +70,6 @@ static void write_sphere(const struct writing *writing, uint32_t record, const s
     uint32_t *words = writing->sphere_words + (size_t)SPHERE_WORDS * number;
     words[which] = record;
     words[SPHERE_SURFACE] = (uint32_t)sphere->tags.SURFACE;
-    words[SPHERE_ORDER] = (uint32_t)sphere->tags.FILE_ORDER;
 }
 
 /* A record that is no box, and a sphere that is never met. */
@@ -75,32 +79,31 @@ static void write_nothing(const struct writing *writing, uint32_t record)
     writing->words[record] = 0;
 }
 
-static void write_pair(struct writing *writing, uint32_t node);
-
-static void write_child(struct writing *writing, uint32_t record, uint32_t node)
+/* Each node but the root has its record in the place of its number: children lie side by side. */
+static uint32_t record_of(uint32_t node)
 {
-    const struct hierarchy_node *child = &writing->nodes[node];
-    if (child->left == 0) {
-        write_sphere(writing, record, child, PLACE_IN_PAIRS);
-        return;
-    }
-    write_box(writing, record, &child->box, writing->next);
-    write_pair(writing, node);
+    return HEAD_RECORDS + node - 1;
 }
 
-/* Writes the records of the node's children, side by side, and what is below them. */
-static void write_pair(struct writing *writing, uint32_t node)
+static void write_pairs(const struct writing *writing, struct progress *progress)
 {
-    const uint32_t record = writing->next;
-    writing->next += 2;
-    const uint32_t left = writing->nodes[node].left;
-    if (left == 0) { /* of a single sphere */
-        write_sphere(writing, record, &writing->nodes[node], PLACE_IN_PAIRS);
-        write_nothing(writing, record + 1);
-        return;
+    const struct hierarchy *hierarchy = writing->scene->hierarchy;
+    if (hierarchy->node_count == 1) {
+        write_sphere(writing, HEAD_RECORDS, hierarchy->nodes, PLACE_IN_PAIRS);
+        write_nothing(writing, HEAD_RECORDS + 1);
     }
-    write_child(writing, record, left);
-    write_child(writing, record + 1, left + 1);
+#pragma omp parallel for schedule(dynamic) if (hierarchy->node_count > NODES_A_STEP)
+    for (uint32_t first = 1; first < hierarchy->node_count; first += NODES_A_STEP) {
+        for (uint32_t i = first; i < hierarchy->node_count && i < first + NODES_A_STEP; ++i) {
+            const struct hierarchy_node *node = &hierarchy->nodes[i];
+            if (node->left == 0)
+                write_sphere(writing, record_of(i), node, PLACE_IN_PAIRS);
+            else
+                write_box(writing, record_of(i), &node->box, record_of(node->left));
+        }
+#pragma omp critical(records_progress)
+        progress_advance(progress, NODES_A_STEP);
+    }
 }
 
 /* Writes the subtree as it comes depth first, the larger child before the smaller one: what blocks a light is
@@ -112,6 +115,8 @@ static void write_stream(struct writing *writing, uint32_t place, float above)
     if (node->left == 0) {
         if (writing->records)
             write_sphere(writing, record, node, PLACE_IN_STREAM);
+        if (writing->records && node->sphere % NODES_A_STEP == 0)
+            progress_advance(writing->progress, 2 * NODES_A_STEP);
         ++writing->next;
         return;
     }
@@ -126,54 +131,62 @@ static void write_stream(struct writing *writing, uint32_t place, float above)
         write_box(writing, record, &node->box, writing->next);
 }
 
-struct sphere_records sphere_records_plan(const struct packed_scene *scene)
+static uint64_t other_count(const struct packed_scene *scene)
 {
-    struct sphere_records plan = {.scene = scene};
-    const uint32_t count = (uint32_t)(scene->sphere_count - scene->looped_spheres);
-    if (count == 0)
-        return plan;
-    struct writing counting = {.plan = &plan, .nodes = scene->hierarchy->nodes};
-    write_stream(&counting, 0, INFINITY);
-    plan.pairs = count > 1 ? 2 * count - 2 : 2;
-    plan.stream = counting.next;
-    return plan;
+    return (uint64_t)(scene->sphere_count - scene->looped_spheres);
 }
 
-uint64_t sphere_record_count(const struct sphere_records *plan)
+/* At least a pair. */
+static uint64_t pair_records(const struct packed_scene *scene)
 {
-    return (uint64_t)plan->pairs + plan->stream + HEAD_RECORDS;
+    const uint64_t count = other_count(scene);
+    return count == 0 ? 0 : count == 1 ? 2 : 2 * count - 2;
 }
 
-uint64_t sphere_word_count(const struct sphere_records *plan)
+uint64_t sphere_record_count(const struct packed_scene *scene)
 {
-    return sphere_record_count(plan) +
-           (uint64_t)SPHERE_WORDS * (uint64_t)(plan->scene->sphere_count - plan->scene->looped_spheres);
+    const uint64_t nodes = scene->hierarchy ? scene->hierarchy->node_count : 0;
+    return HEAD_RECORDS + pair_records(scene) + nodes;
 }
 
-void sphere_records_write(const struct sphere_records *plan, uint32_t (*records)[4], uint32_t *words)
+uint64_t sphere_word_count(const struct packed_scene *scene)
 {
+    return sphere_record_count(scene) + SPHERE_WORDS * other_count(scene);
+}
+
+void sphere_records_write(const struct packed_scene *scene, uint32_t (*records)[4], uint32_t *words)
+{
+    const uint32_t stream = HEAD_RECORDS + (uint32_t)pair_records(scene);
+    struct progress progress;
     struct writing writing = {
-        .plan = plan,
+        .scene = scene,
         .records = records,
         .words = words,
-        .sphere_words = words + sphere_record_count(plan),
-        .next = HEAD_RECORDS,
+        .next = stream,
+        .progress = &progress,
     };
     float largest = 0;
-    if (plan->stream > 0) {
-        writing.nodes = plan->scene->hierarchy->nodes;
+    interrupt_ends_process(true);
+    progress_start(&progress, "boxes for the device", 4 * other_count(scene), false);
+    if (scene->hierarchy) {
+        struct writing counting = {.nodes = scene->hierarchy->nodes, .next = stream};
+        write_stream(&counting, 0, INFINITY);
+        writing.sphere_words = words + counting.next;
+        writing.nodes = scene->hierarchy->nodes;
         const struct box *box = &writing.nodes->box;
         for (int a = 0; a < 3; ++a)
             largest = fmaxf(largest, fmaxf(-box->lo[a], box->hi[a]));
         lay_grid(&writing, box);
-        write_pair(&writing, 0);
+        write_pairs(&writing, &progress);
         write_stream(&writing, 0, INFINITY);
     }
     const layout_vec4 origin = {writing.origin[0], writing.origin[1], writing.origin[2], largest};
     const layout_vec4 step = {writing.step[0], writing.step[1], writing.step[2], 0};
     memcpy(records[GRID_ORIGIN], &origin, sizeof origin);
     memcpy(records[GRID_STEP], &step, sizeof step);
-    records[STREAM][0] = plan->pairs + HEAD_RECORDS;
-    records[STREAM][1] = (uint32_t)sphere_record_count(plan);
+    records[STREAM][0] = stream;
+    records[STREAM][1] = writing.next;
     memset(words, 0, HEAD_RECORDS * sizeof *words);
+    progress_end(&progress);
+    interrupt_ends_process(false);
 }

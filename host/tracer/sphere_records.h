@@ -6,20 +6,12 @@
 #include "packed_scene.h"
 
 /* What the device has of the spheres that are not looped over: records of four words and single words, laid
- * out as shaders/hierarchy.glsl says. */
-struct sphere_records {
-    const struct packed_scene *scene; /* with or without such spheres */
-    uint32_t pairs, stream;           /* records */
-};
-
-struct sphere_records sphere_records_plan(const struct packed_scene *scene);
-
-/* How many there are of both, at least one. */
-uint64_t sphere_record_count(const struct sphere_records *records);
-uint64_t sphere_word_count(const struct sphere_records *records);
+ * out as shaders/hierarchy.glsl says. There is room for so many, at least one, whatever the hierarchy over so
+ * many spheres. */
+uint64_t sphere_record_count(const struct packed_scene *scene);
+uint64_t sphere_word_count(const struct packed_scene *scene);
 
 /* Fills the device's memory. */
-void sphere_records_write(const struct sphere_records *records, uint32_t (*to_records)[4],
-                          uint32_t *to_words);
+void sphere_records_write(const struct packed_scene *scene, uint32_t (*records)[4], uint32_t *words);
 
 #endif

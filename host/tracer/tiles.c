@@ -15,6 +15,7 @@ struct course {
     struct window window;
     const struct tracer_values *values;
     struct progress *progress;
+    uint64_t told[FRAMES];     /* samples of the frames' tiles, to the progress */
     unsigned x, y, row_height; /* of the next tile, in the window */
     double device_ms, end_ms;  /* of the dispatches so far */
 };
@@ -111,7 +112,6 @@ static enum status take(struct course *course, struct dispatch_frame *frame, boo
     for (unsigned row = 0; row < portion->tile_height; ++row)
         copy_row(frame, dispatcher->value_type, (size_t)row * portion->tile_width, portion->tile_width,
                  (size_t)(y + row) * course->window.width + x, course->values);
-    progress_advance(course->progress, (uint64_t)portion->tile_width * portion->tile_height);
     return STATUS_DONE;
 }
 
@@ -125,6 +125,11 @@ static enum status start_samples(struct course *course, struct dispatch_frame *f
     frame->portion.goes_on = 0;
     frame->portion.most_turns = course->tiles->turns;
     return dispatch_frame_start(dispatcher, frame);
+}
+
+static uint64_t tile_pixels(const struct dispatch_frame *frame)
+{
+    return (uint64_t)frame->portion.tile_width * frame->portion.tile_height;
 }
 
 static enum status start_next_tile(struct course *course, struct dispatch_frame *frame)
@@ -151,7 +156,21 @@ static enum status start_next_tile(struct course *course, struct dispatch_frame 
         course->x = 0;
         course->y += course->row_height;
     }
+    course->told[frame - tiles->frames] = 0;
+    progress_begin(course->progress, tile_pixels(frame) * (uint64_t)scene->samples);
     return start_samples(course, frame, 0);
+}
+
+/* Tells how many samples of the tile there are. */
+static void tell(struct course *course, const struct dispatch_frame *frame, uint32_t unfinished)
+{
+    const struct portion *portion = &frame->portion;
+    uint64_t *told = &course->told[frame - course->tiles->frames];
+    const uint64_t of_portion =
+        (tile_pixels(frame) - unfinished) * (portion->end_sample - portion->first_sample);
+    const uint64_t samples = tile_pixels(frame) * portion->first_sample + of_portion;
+    progress_advance(course->progress, samples - *told);
+    *told = samples;
 }
 
 /* More or less of a quantity, where a dispatch took too short or too long. */
@@ -171,9 +190,9 @@ static enum status advance(struct course *course, struct dispatch_frame *frame)
     struct tiles *tiles = course->tiles;
     const struct dispatch_size *size = &tiles->dispatcher->size;
     const uint32_t samples = (uint32_t)tiles->dispatcher->info->scene->samples;
-    bool finished;
+    uint32_t unfinished;
     double device_ms = 0;
-    enum status status = dispatch_frame_wait(tiles->dispatcher, frame, &device_ms, &finished);
+    enum status status = dispatch_frame_wait(tiles->dispatcher, frame, &device_ms, &unfinished);
     course->device_ms += device_ms;
     if (status == STATUS_DONE && interrupt_requested())
         status = STATUS_INTERRUPTED;
@@ -182,7 +201,8 @@ static enum status advance(struct course *course, struct dispatch_frame *frame)
     tiles->turns = adapted(tiles->turns, device_ms, 1, size->most_turns);
     if (!frame->portion.goes_on)
         tiles->pixels = adapted(tiles->pixels, device_ms, LEAST_PIXELS, size->tile_pixels);
-    if (!finished) {
+    tell(course, frame, unfinished);
+    if (unfinished > 0) {
         frame->portion.goes_on = 1;
         frame->portion.most_turns = tiles->turns;
         return dispatch_frame_start(tiles->dispatcher, frame);
@@ -227,7 +247,7 @@ enum status tiles_render(struct tiles *tiles, struct window window, const struct
     /* the other frame, after a failure */
     for (unsigned i = 0; i < tiles->frame_count; ++i)
         if (tiles->frames[i].under_way)
-            dispatch_frame_wait(tiles->dispatcher, &tiles->frames[i], NULL, &(bool){false});
+            dispatch_frame_wait(tiles->dispatcher, &tiles->frames[i], NULL, &(uint32_t){0});
     *times = (struct tracer_times){.dispatch_ms = course.end_ms - start, .device_ms = course.device_ms};
     return status;
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tracer/shader_folder.h"
 #include "tracer/tiles.h"
 #include "vulkan/probe.h"
 
@@ -42,6 +43,8 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
         status = STATUS_UNABLE;
     }
     info->choice = tracer_shader(context, scene, options);
+    if (status == STATUS_DONE && options->shaders)
+        status = shader_folder_code(options->shaders, info->choice, &info->options.code);
     if (status == STATUS_DONE)
         status = scene_buffer_create(context, scene, info->choice.scene_in_storage, &info->scene_buffer);
     if (status == STATUS_DONE)
@@ -70,9 +73,9 @@ bool tracer_update(struct tracer *tracer, const struct packed_scene *scene)
     const struct dispatch_size *size = &tracer->dispatcher.size;
     const struct specialization built = specialize(info->context, info->scene, size, &info->options);
     const struct specialization needed = specialize(info->context, scene, size, &info->options);
-    if (scene->hierarchy || memcmp(&built, &needed, sizeof built) != 0)
+    if (memcmp(&built, &needed, sizeof built) != 0 ||
+        !scene_buffer_update(&info->scene_buffer, info->scene, scene))
         return false;
-    scene_buffer_update(&info->scene_buffer, scene);
     info->scene = scene;
     return true;
 }

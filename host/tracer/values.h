@@ -4,11 +4,6 @@
 #include "image/image.h"
 #include "reference.h"
 
-/* Part of the picture, in pixels from the top left. */
-struct window {
-    unsigned x, y, width, height;
-};
-
 /* Where a window's values go: the one that the tracer's output calls for; the others are NULL. */
 struct tracer_values {
     struct image *image; /* of the window's size; gets the values in double precision and the charges, if it

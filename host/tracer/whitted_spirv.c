@@ -31,14 +31,3 @@ struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage)
 #undef CODE
     return variants[variant][scene_in_storage];
 }
-
-const char *const *whitted_defines(enum whitted_variant variant, bool scene_in_storage)
-{
-    static const char *const variants[][2][3] = {
-        [WHITTED_EXACT] = {{NULL}, {"-DSCENE_IN_STORAGE"}},
-        [WHITTED_CORRECTED] = {{"-DCORRECTED"}, {"-DCORRECTED", "-DSCENE_IN_STORAGE"}},
-        [WHITTED_DOUBLE] = {{"-DDOUBLE"}, {"-DDOUBLE", "-DSCENE_IN_STORAGE"}},
-        [WHITTED_FAST] = {{"-DFAST"}, {"-DFAST", "-DSCENE_IN_STORAGE"}},
-    };
-    return variants[variant][scene_in_storage];
-}

@@ -9,7 +9,7 @@
 #include "base/clock.h"
 #include "vulkan/pass.h"
 
-enum { PROBES = 1 << 16, GROUP = 64 };
+enum { PROBES = 1 << 14, GROUP = 64 };
 static const uint64_t seed = 1980;
 
 /* In the order of probe.comp. */

@@ -15,8 +15,10 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/installation.h"
 #include "base/text_file.h"
 #include "scene/scene.h"
+#include "tracer/shader_folder.h"
 
 /* How long, in milliseconds, a file that has been changed must stay as it is: it is known that nobody has it
  * open for writing; it is not known; somebody has. */
@@ -189,36 +191,19 @@ char *inputs_read_scene(const struct inputs *inputs, size_t *length)
     return text;
 }
 
-/* The folder that was installed with the program, or where that is not known or not there, the source's. */
-static void find_shaders(char folder[PATH_MAX])
-{
-    char program[PATH_MAX], beside[2 * PATH_MAX];
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    program[length > 0 ? length : 0] = 0;
-    const char *slash = strrchr(program, '/');
-    snprintf(beside, sizeof beside, "%.*s/" SHADERS_FROM_BIN, slash ? (int)(slash - program) : 0, program);
-    if (!slash || !realpath(beside, folder))
-        strcpy(folder, SHADERS_OF_SOURCE);
-}
-
 enum status inputs_create(const char *scene_path, const char *shader_folder, struct inputs *inputs)
 {
     char found[PATH_MAX];
     *inputs = (struct inputs){.scene_path = scene_path, .shader_broken = true, .last_look_ms = INFINITY};
     if (!shader_folder)
-        find_shaders(found);
-    int length = snprintf(inputs->shader_path, sizeof inputs->shader_path, "%s/whitted.comp",
-                          shader_folder ? shader_folder : found);
+        installation_find("shaders", found);
     signal(SIGIO, SIG_IGN); /* comes where somebody opens a file for writing while we hold a lease */
     size_t scene_length;
     char *scene = inputs_read_scene(inputs, &scene_length);
-    errno = ENAMETOOLONG;
-    bool good =
-        scene && (size_t)length < sizeof inputs->shader_path && access(inputs->shader_path, R_OK) == 0;
-    if (scene && !good)
-        log_error("%s: %s; --shaders names the folder of whitted.comp", inputs->shader_path, strerror(errno));
+    enum status status =
+        scene ? shader_path(shader_folder ? shader_folder : found, inputs->shader_path) : STATUS_REFUSED;
     free(scene);
-    return good ? STATUS_DONE : STATUS_REFUSED;
+    return status;
 }
 
 void inputs_destroy(struct inputs *inputs)

@@ -75,12 +75,13 @@ static struct picture *prepare(struct session *session, unsigned reduction)
     if (memcmp(&session->file_camera, &scene.camera, sizeof scene.camera) != 0)
         session->file_camera = session->camera = scene.camera;
     scene.camera = session->camera;
+    const struct packed_scene *traced = session->traced ? &session->traced->job.packed : NULL;
     const struct job_options options = reduced_options(&session->options->job, &scene, reduction);
     struct picture *picture = calloc(1, sizeof *picture);
     if (!picture) {
         log_error("no memory for a picture");
         scene_destroy(&scene);
-    } else if (job_create_from(&options, &scene, &picture->job) != STATUS_DONE) {
+    } else if (job_create_from(&options, traced, &scene, &picture->job) != STATUS_DONE) {
         picture_destroy(picture);
         picture = NULL;
     }
@@ -101,20 +102,7 @@ static enum status compile_anew(struct session *session)
 {
     struct inputs *inputs = &session->inputs;
     struct compilation compilation;
-    const struct shader_choice choice = session->choice;
-    char problem[128];
-    enum status status = shader_compile(
-        inputs->shader_path, whitted_defines(choice.variant, choice.scene_in_storage), &compilation);
-    if (status == STATUS_DONE &&
-        !tracer_provides((struct spirv){compilation.words, compilation.size}, choice, problem)) {
-        free(compilation.messages);
-        status = STATUS_REFUSED;
-        if (asprintf(&compilation.messages, "%s: error: %s\n", inputs->shader_path, problem) < 0) {
-            compilation.messages = NULL;
-            log_error("no memory for a message");
-            status = STATUS_UNABLE;
-        }
-    }
+    enum status status = shader_build(inputs->shader_path, session->choice, &compilation);
     if ((status == STATUS_DONE || status == STATUS_REFUSED) &&
         !inputs_follow(inputs, &compilation.files, status == STATUS_REFUSED))
         status = STATUS_DIFFERS;

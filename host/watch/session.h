@@ -2,7 +2,7 @@
 #define VKWHITTED_WATCH_SESSION_H
 
 #include "image/srgb.h"
-#include "watch/compiler.h"
+#include "tracer/shader_folder.h"
 #include "watch/display.h"
 #include "watch/inputs.h"
 #include "watch/picture.h"

@@ -1,6 +1,10 @@
 . "$(dirname "$0")/lib.sh"
 
-# vkwhitted_broken_X beside $BROKEN has a shader in which X is wrong.
+# broken NAME ARGUMENTS...: the pixel, with a shader in which that is wrong.
+broken() {
+    [ -d "broken/$1" ] || break_shader "$1"
+    "$VKWHITTED" pixel --shaders "broken/$1" "${@:2}"
+}
 
 soft=$SOURCE_DIR/scenes/figure_2b.yaml
 
@@ -38,20 +42,20 @@ max_error() {
     said '^ +charge +[0-9.e-]*[1-9]' out
 }
 
-# differs_in QUANTITY PLACE: the program of that name points at it.
+# differs_in NAME SCENE QUANTITY PLACE: what is wrong is pointed at.
 differs_in() {
-    expect 1 "$BROKEN$1" pixel "$2" $4
+    expect 1 broken "$1" "$2" $4
     said "  <-- first difference: $3, device " out
     [ "$(grep -c '<-- first difference' out)" -eq 1 ] || fail 'not one first difference'
     said "^$2: pixel \(${4/ /, }\): DIFFERS, first in ${3%%[.[]*} of step [0-9]+$" out
 }
 
 broken_k_r() {
-    differs_in _k_r "$figure" k_r '200 230'
+    differs_in k_r "$figure" k_r '200 230'
     device=$(sed -nE 's/.*k_r, device 0x([0-9a-f]+) .*/\1/p' out)
     reference=$(sed -nE 's/.*k_r, device .*, reference 0x([0-9a-f]+) .*/\1/p' out)
     [ $((0x$device - 0x$reference)) -eq 1 ] || fail 'not one unit in the last place'
-    expect 0 "$BROKEN"_k_r pixel "$SOURCE_DIR/scenes/figure_2a.yaml" 200 230 # without glass
+    expect 0 broken k_r "$SOURCE_DIR/scenes/figure_2a.yaml" 200 230 # without glass
 }
 
 broken_shadow() {
@@ -64,26 +68,26 @@ objects:
   - { name: Above, type: sphere, center: [0, 9, 0], radius: 2, material: Grey }
 lights: [ { type: point, position: [0, 3, 0], power: 10 } ]
 END
-    expect 1 "$BROKEN"_shadow pixel shadow.yaml 30 30
+    expect 1 broken shadow shadow.yaml 30 30
     said '^ +shadow +Above +reference nothing  <-- first difference: shadow, device Above, reference nothing$' out
     expect 0 "$VKWHITTED" pixel shadow.yaml 30 30
 }
 
-broken_normal() { differs_in _normal "$figure" 'normal[.][xyz]' '200 230'; }
+broken_normal() { differs_in normal "$figure" 'normal[.][xyz]' '200 230'; }
 
 # Total reflection too early: the trees part.
 broken_total() {
-    differs_in _total "$figure" total_reflection '200 230'
+    differs_in total "$figure" total_reflection '200 230'
     said '^ +total_reflection yes  reference no  <--' out
     said '^  totally reflected ray, bounce 1, from Sphere2; the reference has no such ray$' out
     said '^the reference traces [0-9]+ rays that the device does not$' out
 }
 
-broken_term() { differs_in '' "$figure" received '300 20'; }
+broken_term() { differs_in term "$figure" received '300 20'; }
 
 # Only the picture's own pipeline is wrong, and what is recorded is right.
 broken_picture() {
-    expect 1 "$BROKEN"_picture pixel "$figure" 200 230
+    expect 1 broken picture "$figure" 200 230
     said '^the picture has [0-9. ]+ here, the reference.s [0-9. ]+: not what was recorded$' out
     not_said 'first difference|DIFFERS' out
 }
@@ -115,7 +119,7 @@ json_file() {
     steps=$(json result.json steps)
     said "agree in $steps steps" out
     json_is "$(json result.json steps $((steps - 1)) device radiance 0)" result.json radiance 0
-    expect 1 "$BROKEN"_k_r pixel -q --json result.json "$figure" 200 230
+    expect 1 broken k_r -q --json result.json "$figure" 200 230
     json_is false result.json agrees
     json_is k_r result.json first_difference quantity
     json result.json first_difference device_bits | grep -qE '^0x[0-9a-f]{8}$' || fail device_bits

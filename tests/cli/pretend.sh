@@ -37,6 +37,20 @@ agreement_with_long_vectors() {
     expect 0 "$VKWHITTED" check -q --size 450x300 "$SOURCE_DIR"/scenes/figure_4.yaml
 }
 
+# More spheres than the device's buffers can hold: an error with both numbers; and none where they just fit.
+texel_limit() {
+    local flake="$SOURCE_DIR/scenes/sphereflake.yaml" limit
+    export PRETEND_TEXELS
+    for limit in 4096 30000; do # too few for records, and for words only
+        PRETEND_TEXELS=$limit
+        refused 3 "the spheres need a buffer of [0-9]+ texels; llvmpipe.* has them with up to $limit\$" render $small -o a.png "$flake"
+        only_files
+    done
+    PRETEND_TEXELS=$(sed 's/.* of \([0-9]*\) texels.*/\1/' err)
+    [ "$PRETEND_TEXELS" -gt 30000 ] || fail "$PRETEND_TEXELS"
+    expect 0 "$VKWHITTED" render -q $small -o a.png "$flake"
+}
+
 # A lost device, and no memory: a message, status 3 and nothing half-written.
 failing_calls() {
     export PRETEND_FAIL

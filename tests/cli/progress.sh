@@ -12,6 +12,29 @@ on_a_terminal() {
     ! grep -aq 'rendering \[' typescript || fail 'a bar for short work'
 }
 
+# A tile of many samples, and one in which pixels take long: the bar is there before the tile is.
+inside_tiles() {
+    for options in "$figure --size 40x30 --samples 4096" "$SOURCE_DIR/scenes/hard/diamond.yaml --size 120x80 --max-bounces 64"; do
+        script -qec "$VKWHITTED render $options" typescript >/dev/null </dev/null || fail 'exit status'
+        tr '\r' '\n' <typescript | grep -aoE 'rendering \[#* *\] +[0-9]+ %' | grep -aoE '[0-9]+ %' | sort -u >percents
+        [ "$(grep -vc -e '^0 %' -e '^100 %' percents)" -ge 2 ] || fail "the bar stands still: $(tr '\n' ' ' <percents)"
+    done
+}
+
+# Said where there is no terminal, too.
+minutes() {
+    local work="render $figure --size 4000x4000 --samples 1024" backend
+    for backend in vulkan cpu; do
+        "$VKWHITTED" $work --backend $backend 2>err &
+        for ((i = 0; i < 300; ++i)); do
+            ! grep -q takes err || break
+            sleep 0.1
+        done
+        kill %% && wait %%
+        said '^vkwhitted: rendering takes (about|more than) [0-9]+ (minutes|hours)$'
+    done
+}
+
 not_elsewhere() {
     expect 0 "$VKWHITTED" $long
     not_said 'rendering'

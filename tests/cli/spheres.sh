@@ -98,6 +98,18 @@ names_of_rows() {
     grep -qF '"\"Flake\" row 7"' a.json || fail 'no row in the JSON file'
 }
 
+# agrees SCENE KIND COUNT: with so many spheres the hard scene's picture is the reference's, and explained.
+agrees() {
+    cp "$SOURCE_DIR/scenes/hard/$1.yaml" .
+    "$make_spheres" "$2" "$3" >"$1.npy"
+    expect 0 "$VKWHITTED" check --size 48x32 "$1.yaml"
+    said ': 0 of 1536 pixels differ' out
+    expect 0 "$VKWHITTED" check --size 48x32 --against double "$1.yaml"
+    said ' 0 unexplained' out
+}
+coincident_20000() { agrees coincident_spheres coincident 20000; }
+million_grains() { agrees giant_and_grains grains 1000000; }
+
 # Those of the repository are what the program beside them makes.
 arrays() {
     while read -r file arguments; do

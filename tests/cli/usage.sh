@@ -79,7 +79,7 @@ option_of_another_command() {
     refused 2 'render takes no option --tolerance' render --tolerance 1 "$figure"
     refused 2 'watch takes no option --backend' watch --backend cpu -o a.png "$figure"
     refused 2 'watch takes no option --stats' watch --stats a.json -o a.png "$figure"
-    refused 2 'render takes no option --shaders' render --shaders . "$figure"
+    refused 2 'devices takes no option --shaders' devices --shaders .
     refused 2 'check takes no option --check' check --check "$figure"
     refused 2 'render takes no option --heatmap' render --heatmap a.png "$figure"
     refused 2 'devices takes no option --size' devices --size 60x40
@@ -95,13 +95,14 @@ choices() {
 impossible_together() {
     refused 2 '--precision quad' render --precision quad "$figure"
     refused 2 '--fast ' render --fast --backend cpu "$figure"
-    refused 2 '--device and --validate' render --device 0 --backend cpu "$figure"
-    refused 2 '--device and --validate' render --validate --backend cpu "$figure"
+    refused 2 '--device, --shaders and --validate' render --device 0 --backend cpu "$figure"
+    refused 2 '--device, --shaders and --validate' render --validate --backend cpu "$figure"
+    refused 2 '--device, --shaders and --validate' render --shaders . --backend cpu "$figure"
     refused 2 '--precision quad' watch --precision quad -o a.png "$figure"
     (unset DISPLAY WAYLAND_DISPLAY; refused 2 'watch needs -o FILE where there is no display' watch "$figure") || exit 1
-    refused 2 '--heatmap takes one scene' check --heatmap a.png "$figure" "$figure"
+    refused 2 '--heatmap FILE.png takes one scene' check --heatmap a.png "$figure" "$figure"
     for heatmap in a.exr a.txt a png; do
-        refused 2 '--heatmap writes a .png' check --heatmap $heatmap "$figure"
+        refused 2 '--heatmap takes FILE.png or a folder' check --heatmap $heatmap "$figure"
     done
     only_files
 }
@@ -168,7 +169,7 @@ completion() {
     completes 'vkwhitted render --precision =' 'double float quad'
     completes 'vkwhitted render --h' --help
     completes 'vkwhitted render --ag' ''
-    completes 'vkwhitted render --s' '--samples --size --stats'
+    completes 'vkwhitted render --s' '--samples --shaders --size --stats'
     completes 'vkwhitted devices -' '--device --help --validate --version -h -q -v'
     completes 'vkwhitted render --size ' ''
     completes 'vkwhitted render --fast ' 'a.yaml folder'

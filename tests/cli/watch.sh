@@ -195,6 +195,23 @@ spheres_from_a_file() {
     [ "$(grep -c truncated err)" -eq 1 ] || fail 'half a file was read'
 }
 
+# The camera goes from one sphere of glass into another: the pipeline stays, and so does what finds the spheres, but not
+# which of them hold the camera.
+camera_among_many_spheres() {
+    start
+    "$BINARY_DIR/make_spheres" cloud 300 >rows.npy
+    turn 'picture 2: pipeline' edit 's/^objects:/&\n  - { name: Flake, type: spheres, file: rows.npy, material: Glass }/' s.yaml
+    picture_is_rendered_scene
+    turn 'same pipeline' sh -c 'cat rows.npy >moved.npy; printf "\0\0\200\100" | dd of=moved.npy bs=1 seek=140 conv=notrunc status=none; mv moved.npy rows.npy'
+    picture_is_rendered_scene
+    for row in 3 4 21; do # within the room
+        set -- $(od -An -v -tf4 -w16 -j$((128 + 16 * row)) -N16 rows.npy)
+        turn 'same pipeline' edit "s/camera: { position: [^]]*]/camera: { position: [$1, $2, $3]/" s.yaml
+        picture_is_rendered_scene
+    done
+    finish
+}
+
 # 200 in a row, in all ways: the last one counts, and each picture is one of a whole file.
 quick_saves() {
     local i

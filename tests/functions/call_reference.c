@@ -53,6 +53,35 @@ void call_meet_sphere(const meet_sphere_input *input, meet_sphere_output *output
     output->hit = record_of(met, &hit);
 }
 
+/* A scene of nothing but a giant. */
+struct giant_scene {
+    Sphere giant;
+    PackedSurface surface;
+    struct packed_scene scene;
+};
+
+static void set_giant_scene(struct giant_scene *set, Sphere giant, float curvature)
+{
+    *set = (struct giant_scene){
+        .giant = giant,
+        .surface.more_parameters.CURVATURE = curvature,
+        .scene = {.sphere_count = 1,
+                  .looped_spheres = 1,
+                  .giants = 1,
+                  .spheres = &set->giant,
+                  .surfaces = &set->surface},
+    };
+}
+
+void call_meet_giant(const meet_giant_input *input, meet_giant_output *output)
+{
+    const struct ray ray = ray_of(&input->ray);
+    struct giant_scene set;
+    struct hit hit;
+    set_giant_scene(&set, input->giant, input->curvature);
+    output->hit = record_of(find_hit(&set.scene, &ray, &hit), &hit);
+}
+
 /* The plane is surface 1 of a scene that has a sphere. */
 void call_meet_plane(const meet_plane_input *input, meet_plane_output *output)
 {
@@ -95,6 +124,14 @@ void call_sphere_shadows(const sphere_shadows_input *input, sphere_shadows_outpu
 {
     const struct segment segment = segment_of(&input->segment);
     output->shadows = sphere_blocks(&input->sphere, 0, &segment);
+}
+
+void call_giant_shadows(const giant_shadows_input *input, giant_shadows_output *output)
+{
+    const struct segment segment = segment_of(&input->segment);
+    struct giant_scene set;
+    set_giant_scene(&set, input->giant, input->curvature);
+    output->shadows = is_blocked(&set.scene, &segment);
 }
 
 void call_plane_shadows(const plane_shadows_input *input, plane_shadows_output *output)

@@ -107,6 +107,21 @@ void call_meet_sphere(meet_sphere_input i, out meet_sphere_output o)
     o.hit = record_of(ray_of(i.ray), nearest);
 }
 
+LoopedSphere giant_of(Sphere giant, float curvature)
+{
+    PackedSurface surface = PackedSurface(vec4(0), vec4(0), ivec4(0));
+    surface.more_parameters.CURVATURE = curvature;
+    return LoopedSphere(sphere_of(giant), surface);
+}
+
+void call_meet_giant(meet_giant_input i, out meet_giant_output o)
+{
+    hoisted_spheres[0] = giant_of(i.giant, i.curvature);
+    Hit nearest = no_hit();
+    meet_giant(ray_of(i.ray), 0, nearest);
+    o.hit = record_of(ray_of(i.ray), nearest);
+}
+
 void call_meet_plane(meet_plane_input i, out meet_plane_output o)
 {
     hoisted_planes[0] = plane_of(i.plane);
@@ -133,6 +148,13 @@ void call_sphere_shadows(sphere_shadows_input i, out sphere_shadows_output o)
     hoisted_spheres[0].sphere = sphere_of(i.sphere);
     o.shadows = int(sphere_shadows(0, vec3_of(i.segment.from), i.segment.surface, i.segment.inward != 0,
                                    vec3_of(i.segment.direction), i.segment.distance, vec3_of(i.segment.to)));
+}
+
+void call_giant_shadows(giant_shadows_input i, out giant_shadows_output o)
+{
+    hoisted_spheres[0] = giant_of(i.giant, i.curvature);
+    o.shadows = int(giant_shadows(0, vec3_of(i.segment.from), i.segment.surface, i.segment.inward != 0,
+                                  vec3_of(i.segment.direction), i.segment.distance, vec3_of(i.segment.to)));
 }
 
 void call_plane_shadows(plane_shadows_input i, out plane_shadows_output o)

@@ -14,4 +14,8 @@ struct dvec3 nearest_to_origin(const struct PackedPlane *plane);
 struct dvec3 random_in_plane(struct random *random, const struct PackedPlane *plane, struct dvec3 start,
                              double distance);
 
+/* The way from a point of the surface to one of a light, as the renderer has it; a light as near as this does
+ * not shine. */
+SegmentRecord connect_points(struct dvec3 from_point, struct dvec3 to_point, int surface, bool inward);
+
 #endif

@@ -1,8 +1,7 @@
 /* Ways from surface points to light points. */
 #include "generate.h"
 
-/* As the renderer does it; a light as near as this does not shine. */
-static SegmentRecord connect(struct dvec3 from_point, struct dvec3 to_point, int surface, bool inward)
+SegmentRecord connect_points(struct dvec3 from_point, struct dvec3 to_point, int surface, bool inward)
 {
     struct vec3 from = round_vector(from_point), to = round_vector(to_point), way = subtract(to, from);
     if (!(dot(way, way) > (real)NEAREST_LIGHT_SQUARED)) {
@@ -88,7 +87,7 @@ void generate_sphere_shadows(struct random *random, sphere_shadows_input *input)
         sphere.tags.HOLDS_RAYS = sphere.tags.HOLDS_LIGHTS = 0;
         inward = false;
     }
-    *input = (sphere_shadows_input){connect(from, to, surface, inward), sphere};
+    *input = (sphere_shadows_input){connect_points(from, to, surface, inward), sphere};
 }
 
 void generate_plane_shadows(struct random *random, plane_shadows_input *input)
@@ -121,5 +120,5 @@ void generate_plane_shadows(struct random *random, plane_shadows_input *input)
     default:
         break;
     }
-    *input = (plane_shadows_input){connect(from, to, surface, false), plane};
+    *input = (plane_shadows_input){connect_points(from, to, surface, false), plane};
 }

@@ -61,8 +61,11 @@ static void choose_file_order(struct random *random, struct hostile_scene *scene
     enum { PLACES_BETWEEN = 16 };
     for (unsigned i = looped; i < count; ++i)
         scene->spheres[i].tags.FILE_ORDER = (int)(i * PLACES_BETWEEN);
-    for (unsigned i = 0; i < looped; ++i)
-        scene->spheres[i].tags.FILE_ORDER = (int)(random_below(random, count) * PLACES_BETWEEN + i + 1);
+    for (unsigned i = 0; i < looped; ++i) {
+        const unsigned behind = random_below(random, count);
+        scene->spheres[i].tags.FILE_ORDER = (int)(behind * PLACES_BETWEEN + i + 1);
+        scene->surfaces[i].tags.OTHERS_BEFORE = behind < looped ? 0 : (int)(behind - looped + 1);
+    }
 }
 
 void hostile_scene_create(struct random *random, unsigned count, struct hostile_scene *scene)
@@ -85,16 +88,19 @@ void hostile_scene_create(struct random *random, unsigned count, struct hostile_
         sphere->tags.HOLDS_RAYS = random_bool(random);
         sphere->tags.HOLDS_LIGHTS = random_bool(random);
     }
-    int looped = one_in(random, 4) ? (int)random_below(random, count < 8 ? count : 8) : 0;
+    int looped = one_in(random, 4)
+                     ? (int)random_below(random, count < MOST_HOSTILE_LOOPED ? count : MOST_HOSTILE_LOOPED)
+                     : 0;
     choose_file_order(random, scene, (unsigned)looped, count);
     scene->without = (struct packed_scene){
         .sphere_count = (int)count,
         .looped_spheres = looped,
         .spheres = scene->spheres,
-        .surfaces = &scene->surface,
+        .surfaces = scene->surfaces,
     };
     scene->with_tree = scene->without;
-    scene->with_tree.tree = scene->tree = sphere_tree_create(scene->spheres, looped, (int)count, 1);
+    scene->with_tree.tree = scene->tree =
+        sphere_tree_create(scene->spheres, looped, (int)count, 1, NULL, NULL);
     assert(scene->tree);
 }
 

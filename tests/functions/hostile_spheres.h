@@ -4,12 +4,12 @@
 #include "geometry.h"
 #include "random.h"
 
-enum { MOST_HOSTILE_SPHERES = 96 };
+enum { MOST_HOSTILE_SPHERES = 96, MOST_HOSTILE_LOOPED = 8 };
 
 /* Spheres that a tree of balls may get wrong, with a tree and without. */
 struct hostile_scene {
     struct PackedSphere spheres[MOST_HOSTILE_SPHERES];
-    struct PackedSurface surface;
+    struct PackedSurface surfaces[MOST_HOSTILE_LOOPED];
     struct sphere_tree *tree;
     struct packed_scene with_tree, without;
     double e_origin, e_direction,

@@ -11,11 +11,11 @@
 #include <cmocka.h>
 
 #include "hostile_spheres.h"
-#include "scene/hierarchy.h"
+#include "needy_ray.h"
 #include "tracer/dispatch.h"
 #include "vulkan/probe.h"
 
-enum { GROUP = 64, CASES = 1 << 14, INPUTS = SCENE_BINDINGS, OUTPUTS, USED_BINDINGS };
+enum { GROUP = 64, CASES = 1 << 14, NEEDY_RAYS = 64, INPUTS = SCENE_BINDINGS, OUTPUTS, USED_BINDINGS };
 
 /* As in hierarchy.comp. */
 struct input {
@@ -92,11 +92,8 @@ static struct ray ray_along_side(struct random *random, const struct hostile_sce
     return (struct ray){round_vector(origin), round_vector(direction), NO_SURFACE, false};
 }
 
-static void make_input(struct random *random, const struct hostile_scene *scene, struct ray *ray,
-                       struct segment *segment, struct input *input)
+static void write_input(const struct ray *ray, const struct segment *segment, struct input *input)
 {
-    *ray = random_bool(random) ? ray_along_side(random, scene) : hostile_ray(random, scene);
-    *segment = hostile_segment(random, scene);
     *input = (struct input){
         .origin = {ray->origin.x, ray->origin.y, ray->origin.z},
         .surface = ray->surface,
@@ -111,7 +108,7 @@ static void make_input(struct random *random, const struct hostile_scene *scene,
     };
 }
 
-static void run(struct packed_scene *packed)
+static void run(struct packed_scene *packed, int cases)
 {
     struct scene_buffer memory;
     assert_int_equal(scene_buffer_create(context, packed, true, &memory), STATUS_DONE);
@@ -126,9 +123,9 @@ static void run(struct packed_scene *packed)
     struct pass_frame frame;
     assert_int_equal(pass_frame_create(&passes[packed->looped_spheres], buffers, texels, &frame),
                      STATUS_DONE);
-    assert_int_equal(
-        pass_frame_submit(&frame, &(struct pass_dispatch){.groups_x = CASES / GROUP, .groups_y = 1}),
-        STATUS_DONE);
+    assert_int_equal(pass_frame_submit(&frame, &(struct pass_dispatch){.groups_x = (uint32_t)(cases / GROUP),
+                                                                       .groups_y = 1}),
+                     STATUS_DONE);
     assert_int_equal(pass_frame_wait(&frame, NULL), STATUS_DONE);
     pass_frame_destroy(&frame);
     scene_buffer_destroy(context, &memory);
@@ -138,12 +135,12 @@ struct counts {
     long met, tied, blocked, resumed, wrong;
 };
 
-static void compare(const struct hostile_scene *scene, const struct ray *ray, const struct segment *segment,
+static void compare(const struct packed_scene *scene, const struct ray *ray, const struct segment *segment,
                     const struct output *output, struct counts *counts)
 {
     struct hit hit;
-    const bool met = find_hit(&scene->without, ray, &hit);
-    const bool blocked = is_blocked(&scene->without, segment);
+    const bool met = find_hit(scene, ray, &hit);
+    const bool blocked = is_blocked(scene, segment);
     counts->met += met;
     counts->blocked += blocked;
     counts->resumed += output->rounds > 0;
@@ -186,18 +183,22 @@ static void test_scene(struct random *random, struct counts *counts, bool halved
     const uint32_t looped = (uint32_t)packed.looped_spheres, others = (uint32_t)packed.sphere_count - looped;
     if (halved) {
         uint32_t next = 1;
-        hierarchy = (struct hierarchy){calloc(2 * others, sizeof *hierarchy.nodes), 2 * others - 1};
+        hierarchy = (struct hierarchy){.nodes = calloc(2 * others, sizeof *hierarchy.nodes),
+                                       .node_count = 2 * others - 1};
         halve(&hierarchy, scene.spheres, 0, &next, looped, others);
     } else {
         assert_int_equal(hierarchy_build(scene.spheres, looped, others, &hierarchy), STATUS_DONE);
     }
     packed.hierarchy = &hierarchy;
     packed.surface_count = 1;
+    for (int i = 0; i < CASES; ++i) {
+        rays[i] = random_bool(random) ? ray_along_side(random, &scene) : hostile_ray(random, &scene);
+        segments[i] = hostile_segment(random, &scene);
+        write_input(&rays[i], &segments[i], (struct input *)inputs.mapped + i);
+    }
+    run(&packed, CASES);
     for (int i = 0; i < CASES; ++i)
-        make_input(random, &scene, &rays[i], &segments[i], (struct input *)inputs.mapped + i);
-    run(&packed);
-    for (int i = 0; i < CASES; ++i)
-        compare(&scene, &rays[i], &segments[i], (const struct output *)outputs.mapped + i, counts);
+        compare(&scene.without, &rays[i], &segments[i], (const struct output *)outputs.mapped + i, counts);
     hierarchy_destroy(&hierarchy);
     hostile_scene_destroy(&scene);
 }
@@ -220,6 +221,31 @@ static void test_hierarchies(void **state)
     assert_int_equal(counts.wrong, 0);
 }
 
+/* Rays for which a quarter of the slack is too little. */
+static void test_slack(void **state)
+{
+    struct counts counts = {0};
+    int needy_rays = 0;
+    (void)state;
+    for (uint64_t i = 0; needy_rays < NEEDY_RAYS; ++i) {
+        struct random random = random_start(14, 0, i);
+        struct needy_ray needy;
+        assert_true(i < 100 * NEEDY_RAYS);
+        if (!needy_ray_create(&random, 0.25F, &needy))
+            continue;
+        ++needy_rays;
+        struct segment none = {.from = needy.ray.origin, .to = needy.ray.origin, .surface = NO_SURFACE};
+        none.direction = needy.ray.direction;
+        for (int k = 0; k < GROUP; ++k)
+            write_input(&needy.ray, &none, (struct input *)inputs.mapped + k);
+        run(&needy.scene, GROUP);
+        for (int k = 0; k < 2; ++k) /* with many and few steps at a time */
+            compare(&needy.scene, &needy.ray, &none, (const struct output *)outputs.mapped + k, &counts);
+        hierarchy_destroy(&needy.hierarchy);
+    }
+    assert_int_equal(counts.wrong, 0);
+}
+
 int main(void)
 {
     const struct vulkan_options options = {.validate = true};
@@ -230,7 +256,7 @@ int main(void)
         vulkan_buffer_create(context, "outputs", CASES * sizeof(struct output), BUFFER_READBACK, &outputs) !=
             STATUS_DONE)
         return EXIT_FAILURE;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_hierarchies)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_hierarchies), cmocka_unit_test(test_slack)};
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     for (int i = 0; i <= MOST_HOSTILE_SPHERES; ++i)
         vulkan_pass_destroy(&passes[i]);

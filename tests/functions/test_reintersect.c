@@ -129,6 +129,61 @@ static void test_spheres(void **state)
     assert_true(errors.distance <= chord_operations);
 }
 
+/* Of a point of a giant, which has been moved by its height: a product, a sum and a dot product, five
+ * roundings; minus the offset; moved. */
+static const double giant_point_operations = 7;
+
+/* In units of half_ulp of 1 + |point|, that times the gradient's length at most. */
+static double off_giant(const struct packed_scene *scene, struct vec3 point)
+{
+    const struct giant giant = giant_of(scene, 0);
+    const struct dvec3 gradient = widen(giant.gradient), place = widen(point);
+    const double curvature = (double)giant.curvature, size = dvec3_length(place);
+    double height = dvec3_dot(dvec3_along(gradient, curvature / 2, place), place) - (double)giant.offset;
+    return fabs(height) / (half_ulp * (1 + size * (1 + curvature * size)));
+}
+
+static void test_giants(void **state)
+{
+    (void)state;
+    double worst = 0;
+    long met = 0;
+    for (uint64_t i = 0; met < CASES / 4; ++i) {
+        struct random random = random_start(3, 0, i);
+        const double radius = random_scale(&random, 16, 0x1p32), height = random_between(&random, -1, 1);
+        const struct dvec3 normal = random_direction(&random);
+        const struct vec3 gradient = round_vector(dvec3_scale(1 - height / radius, normal));
+        const bool inside = random_below(&random, 4) == 0;
+        struct PackedSphere sphere = {.center_radius = {gradient.x, gradient.y, gradient.z,
+                                                        (float)(height * (1 - height / (2 * radius)))},
+                                      .tags.HOLDS_RAYS = inside};
+        PackedSurface surface = {.more_parameters.CURVATURE = (float)(1 / radius)};
+        const struct packed_scene scene = {
+            .sphere_count = 1, .looped_spheres = 1, .giants = 1, .spheres = &sphere, .surfaces = &surface};
+        const double from = (inside ? -1 : 1) * random_scale(&random, 1e-6, 1);
+        struct ray ray = {.origin = round_vector(dvec3_scale(height + from, normal)), .surface = NO_SURFACE};
+        ray.direction = round_vector(random_direction(&random));
+        struct hit hit, next;
+        if (!find_hit(&scene, &ray, &hit))
+            continue;
+        assert_true(hit.from_inside == inside);
+        ++met;
+        for (int bounce = 0; bounce < 3; ++bounce) {
+            worst = fmax(worst, off_giant(&scene, hit.point));
+            struct vec3 outward_normal = hit.from_inside ? negate(hit.normal) : hit.normal;
+            struct ray outward = leave(&hit, &random, false, outward_normal);
+            assert_false(find_hit(&scene, &outward, &next));
+            assert_not_shadowed(&scene, &outward);
+            struct ray inward = leave(&hit, &random, true, outward_normal);
+            assert_true(find_hit(&scene, &inward, &next));
+            assert_true(next.from_inside && next.distance >= 0);
+            hit = next;
+        }
+    }
+    print_message("%ld hits of giants: points within %.2f half ulps of 1 + |point|\n", met, worst);
+    assert_true(worst <= giant_point_operations);
+}
+
 static void test_planes(void **state)
 {
     (void)state;
@@ -166,6 +221,7 @@ static void test_planes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_spheres), cmocka_unit_test(test_planes)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_spheres), cmocka_unit_test(test_giants),
+                                       cmocka_unit_test(test_planes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-#ifndef VKWHITTED_WATCH_COMPILER_H
-#define VKWHITTED_WATCH_COMPILER_H
+#ifndef VKWHITTED_TRACER_COMPILER_H
+#define VKWHITTED_TRACER_COMPILER_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -14,8 +14,8 @@ struct compilation {
                         behind each, and an empty one behind the last */
 };
 
-/* Compiles a compute shader with glslangValidator, in a process of its own, which may crash. The options are
- * those of tracer_shader()'s variant; the others are the build's.
+/* Compiles a compute shader with glslangValidator, in a process of its own, which may crash. The options,
+ * NULL behind the last, come behind the build's.
  *
  * STATUS_DONE, or STATUS_REFUSED where the shader does not compile, nothing being reported: the caller prints
  * the messages. Otherwise STATUS_UNABLE (reported) or STATUS_INTERRUPTED, and the compilation is empty. The

@@ -1,4 +1,4 @@
-#include "watch/compiler.h"
+#include "tracer/compiler.h"
 
 #include <errno.h>
 #include <spawn.h>

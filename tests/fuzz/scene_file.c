@@ -1,12 +1,9 @@
-#include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "fuzz.h"
 #include "scene/scene.h"
 
-/* libFuzzer entry for the scene file reader. Run it with -close_fd_mask=2: messages are its normal output. */
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+/* The text of a scene file. */
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
