@@ -84,6 +84,12 @@ static inline double errors_length(struct errors e)
     return smaller(sqrt(e.x * e.x + e.y * e.y + e.z * e.z), e.length);
 }
 
+/* Of a length, of a vector that is off by `off`: half of a dot product's roundings, and the root's. */
+static inline double length_error(double length_of_it, double off)
+{
+    return off + 2.5 * unit_roundoff * length_of_it;
+}
+
 /* What they bring into a product with v. */
 static inline double errors_weigh(struct vec3 v, struct errors e)
 {
@@ -251,13 +257,15 @@ static inline struct hit_error track_giant_hit(const struct giant *giant, const 
     struct errors point;
     double e_distance, r_distance;
     if (ray->surface == hit->surface) { /* a chord */
-        r_distance = 2 * r_slope / curvature + 2 * unit_roundoff * distance;
+        r_distance = 2 * r_slope / curvature + 2 * (1 + length_roundings) * unit_roundoff * distance;
         e_distance = 2 * e_slope / curvature;
         point =
             errors_add(errors_through(1, 1, normal, normal, moved),
                        errors_along(subtract(direction, scale(dot(normal, direction), normal)), e_distance));
     } else {
-        const double r_height = height_rounding(giant, origin) + distance * r_slope;
+        /* with what a direction's length, taken to be 1, may be off by */
+        const double r_height = height_rounding(giant, origin) + distance * r_slope +
+                                length_roundings * unit_roundoff * curvature * distance * distance;
         const double r_root =
             unit_roundoff * ((slope * slope + 2 * curvature * fabs((double)line.height)) / root + root);
         /* the slope at the surface, by which heights are divided, changes on the way */

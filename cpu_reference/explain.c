@@ -21,8 +21,8 @@ struct tracked_path {
     struct ray ray;
     struct ray_errors error;
     double weight, e_weight;
-    bool followed; /* float has decided as here on the way. Where it may not have, the errors mean nothing, and
-                    * the pixel's has all that the path may bring. */
+    bool followed; /* float has decided as here on the way. Where it may not have, the errors mean nothing,
+                    * and the pixel's has all that the path may bring. */
     int bounces;
     uint32_t branch; /* of the ray tree, as in tracer.c */
 };

@@ -226,7 +226,7 @@ track_receive(const struct packed_scene *scene, const struct matte_point *matte,
     const double cos_in = (double)dot(hit->normal, sample.direction);
     const double e_cos_in = dot_error(hit->normal, point->hit.normal, sample.direction, sample.e_direction);
     sample.margin = INFINITY;
-    NOTE_LIGHT_BOUNDS(e_light, off, e_cos_in, 0, INFINITY);
+    NOTE_LIGHT_BOUNDS(e_light, length_error(distance, off), e_cos_in, 0, INFINITY);
     if (cos_in < -e_cos_in)
         return sample;
     double e_factor, factor = track_factor(matte, point, &sample, cos_in, e_cos_in, &e_factor);
@@ -249,7 +249,7 @@ track_receive(const struct packed_scene *scene, const struct matte_point *matte,
         require_positive(&lit, (double)dot(vector_of(quad->area_normal), sample.direction),
                          dot_error(vector_of(quad->area_normal), none, sample.direction, sample.e_direction));
     sample.margin = conjunction_margin(&lit);
-    NOTE_LIGHT_BOUNDS(e_light, off, e_cos_in, sample.error, sample.margin);
+    NOTE_LIGHT_BOUNDS(e_light, length_error(distance, off), e_cos_in, sample.error, sample.margin);
     return sample;
 }
 

@@ -77,6 +77,7 @@ bool giant_shadows(int i, real3 point, int surface, bool inward, real3 to_light,
     bool point_inside = own ? inward : line.height < real(0);
     bool light_inside =
         SPHERES_HOLD_LIGHTS && tags.HOLDS_LIGHTS != 0 && giant_height(shape, curvature, light) < real(0);
-    bool between = line.slope < real(0) && line.crosses && -line.slope < bend;
+    exact real descent = -line.slope;
+    bool between = line.slope < real(0) && line.crosses && descent < bend;
     return !(own && !inward) && (point_inside || light_inside ? point_inside != light_inside : between);
 }

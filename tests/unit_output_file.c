@@ -96,10 +96,11 @@ static void test_abandon_and_check_leave_nothing(void **state)
     output_file_write(&file, "new", 3);
     output_file_abandon(&file);
     output_file_abandon(&file);
-    assert_int_equal(output_file_check("target"), STATUS_DONE);
-    assert_int_equal(output_file_check("another"), STATUS_DONE);
+    assert_int_equal(output_file_claim("target"), STATUS_DONE);
+    assert_int_equal(output_file_claim("another"), STATUS_DONE);
     assert_file("target", "old");
     assert_int_equal(test_folder_files(0), 1);
+    output_file_release();
 }
 
 static void commit_text(const char *path, const char *text)
@@ -108,6 +109,44 @@ static void commit_text(const char *path, const char *text)
     assert_int_equal(output_file_open(path, &file), STATUS_DONE);
     output_file_write(&file, text, strlen(text));
     assert_int_equal(output_file_commit(&file), STATUS_DONE);
+}
+
+static void assert_claimed(const char *path)
+{
+    char line[256];
+    test_messages_begin();
+    enum status status = output_file_claim(path);
+    int lines = test_messages_end(line);
+    if (status != STATUS_REFUSED || lines != 1 || !strstr(line, ": is written already, as "))
+        fail_msg("%s: status %d, %d lines: %s", path, status, lines, line);
+}
+
+/* By any name, until it is in place. */
+static void test_claims(void **state)
+{
+    (void)state;
+    put_file("target", "old");
+    assert_int_equal(mkdir("folder", 0777), 0);
+    assert_int_equal(symlink("../folder", "folder/itself"), 0);
+    assert_int_equal(symlink("target", "link"), 0);
+    assert_int_equal(link("target", "hard"), 0);
+    assert_int_equal(output_file_claim("target"), STATUS_DONE);
+    assert_int_equal(output_file_claim("folder/target"), STATUS_DONE);
+    assert_int_equal(output_file_claim("folder/target2"), STATUS_DONE);
+    assert_claimed("target");
+    assert_claimed("./target");
+    assert_claimed("link");
+    assert_claimed("hard");
+    assert_claimed("folder/../hard");
+    assert_claimed("folder/target");
+    assert_claimed("folder//target");
+    assert_claimed("folder/itself/target");
+    commit_text("target", "new");
+    assert_int_equal(output_file_claim("target"), STATUS_DONE);
+    output_file_release();
+    assert_int_equal(output_file_claim("hard"), STATUS_DONE);
+    output_file_release();
+    assert_int_equal(unlink("folder/itself"), 0);
 }
 
 static void test_permissions(void **state)
@@ -221,6 +260,7 @@ int main(void)
         TEST_IN_FOLDER(test_commit_replaces),
         TEST_IN_FOLDER(test_write_at),
         TEST_IN_FOLDER(test_abandon_and_check_leave_nothing),
+        TEST_IN_FOLDER(test_claims),
         TEST_IN_FOLDER(test_permissions),
         TEST_IN_FOLDER(test_symbolic_link_is_followed),
         TEST_IN_FOLDER(test_longest_name),

@@ -345,14 +345,31 @@ static void lights_too_bright(void **state)
                   STATUS_DONE, 0, "");
 }
 
+static void spheres_too_small(void **state)
+{
+    (void)state;
+    check_message(
+        "objects:\n  - { name: S, type: sphere, center: [0, 0, 0], radius: 1e-15, material: Matte }\n",
+        STATUS_REFUSED, 1, "vkwhitted: error: test.yaml:8:5: sphere \"S\": radius must be at least ");
+    check_message(
+        "objects:\n  - { name: S, type: sphere, center: [0, 0, 0], radius: 1e-14, material: Matte }\n",
+        STATUS_DONE, 0, "");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scaling_by_powers_of_two), cmocka_unit_test(planes_face_the_camera),
-        cmocka_unit_test(coincident_objects),       cmocka_unit_test(lights_behind_planes),
-        cmocka_unit_test(hollow_spheres),           cmocka_unit_test(lights_too_bright),
-        cmocka_unit_test(choice_of_giants),         cmocka_unit_test(packed_giants_are_where_they_are),
-        cmocka_unit_test(directions_of_any_length), cmocka_unit_test(lights_behind_planes_of_large_scenes),
+        cmocka_unit_test(scaling_by_powers_of_two),
+        cmocka_unit_test(planes_face_the_camera),
+        cmocka_unit_test(coincident_objects),
+        cmocka_unit_test(lights_behind_planes),
+        cmocka_unit_test(hollow_spheres),
+        cmocka_unit_test(lights_too_bright),
+        cmocka_unit_test(spheres_too_small),
+        cmocka_unit_test(choice_of_giants),
+        cmocka_unit_test(packed_giants_are_where_they_are),
+        cmocka_unit_test(directions_of_any_length),
+        cmocka_unit_test(lights_behind_planes_of_large_scenes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

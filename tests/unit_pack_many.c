@@ -9,10 +9,7 @@
 #include <cmocka.h>
 
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "base/interrupt.h"
 #include "npy_file.h"
@@ -316,43 +313,13 @@ static void moved_camera(void **state)
     assert_true(changed > 2);
 }
 
-/* Ctrl-C ends reading and packing, and with them the process. */
-static void interrupted(void **state)
-{
-    struct scene scene;
-    const char *text = HEAD CLOUD;
-    (void)state;
-    fill_rows(100, 0.25F);
-    npy_write("rows.npy", 100, rows);
-    assert_int_equal(scene_read_text("a.yaml", text, strlen(text), &scene), STATUS_DONE);
-    struct picture_settings settings = test_settings(&scene);
-    for (int packing = 0; packing < 2; ++packing) {
-        int how = 0;
-        const pid_t child = fork();
-        assert_true(child >= 0);
-        if (child == 0) {
-            struct packed_scene packed;
-            interrupt_catch();
-            raise(SIGINT);
-            if (packing)
-                pack_scene(&scene, &settings, &packed);
-            else
-                scene_read_text("a.yaml", text, strlen(text), &scene);
-            _exit(0);
-        }
-        assert_int_equal(waitpid(child, &how, 0), child);
-        assert_true(WIFSIGNALED(how) && WTERMSIG(how) == SIGINT);
-    }
-    scene_destroy(&scene);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(few_and_many),  cmocka_unit_test(rows_as_objects),
         cmocka_unit_test(moved_camera),  cmocka_unit_test(order_and_surfaces),
         cmocka_unit_test(large_spheres), cmocka_unit_test(tags_of_random_scenes),
-        cmocka_unit_test(escapes),       cmocka_unit_test(interrupted),
+        cmocka_unit_test(escapes),
     };
     return cmocka_run_group_tests(tests, test_folder_setup, test_folder_teardown);
 }

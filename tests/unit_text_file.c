@@ -9,12 +9,12 @@
 #include <cmocka.h>
 
 #include <errno.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
+#include <unistd.h>
 
-#include "base/interrupt.h"
+#include "base/output_file.h"
 #include "base/text_file.h"
 #include "test_folder.h"
 
@@ -87,11 +87,10 @@ static void pause_ms(long milliseconds)
     nanosleep(&(struct timespec){.tv_nsec = milliseconds * 1000000}, NULL);
 }
 
-/* A process that writes the bytes to the pipe in two parts and then, after a while, closes it or interrupts
- * us. */
-static pid_t start_writer(const char *bytes, bool interrupts)
+/* A process that writes the bytes to the pipe in two parts and then, after a while, closes it. */
+static pid_t start_writer(const char *bytes)
 {
-    pid_t us = getpid(), writer = fork();
+    pid_t writer = fork();
     assert_true(writer >= 0);
     if (writer > 0)
         return writer;
@@ -99,10 +98,7 @@ static pid_t start_writer(const char *bytes, bool interrupts)
     bool written = write(fifo, bytes, 1000) == 1000;
     pause_ms(50);
     written = written && write(fifo, bytes + 1000, SIZE - 1000) == SIZE - 1000;
-    pause_ms(300);
-    if (interrupts)
-        kill(us, SIGINT);
-    pause_ms(interrupts ? 300 : 0);
+    pause_ms(50);
     _exit(!written);
 }
 
@@ -111,28 +107,34 @@ static void test_pipe(void **state)
     (void)state;
     char *bytes = some_bytes();
     assert_int_equal(mkfifo("fifo", 0666), 0);
-    interrupt_catch();
-    for (int interrupts = 0; interrupts < 2; ++interrupts) {
-        size_t length = 0;
-        int outcome;
-        pid_t writer = start_writer(bytes, interrupts);
-        errno = 0;
-        char *text = text_file_read("fifo", false, SIZE, &length);
-        int error = errno;
-        assert_int_equal(waitpid(writer, &outcome, 0), writer);
-        assert_int_equal(outcome, 0);
-        if (interrupts) {
-            assert_null(text);
-            assert_int_equal(error, EINTR);
-            assert_true(interrupt_requested());
-        } else {
-            assert_non_null(text);
-            assert_int_equal(length, SIZE);
-            assert_memory_equal(text, bytes, SIZE);
-        }
-        free(text);
-    }
+    size_t length = 0;
+    int outcome;
+    pid_t writer = start_writer(bytes);
+    char *text = text_file_read("fifo", false, SIZE, &length);
+    assert_int_equal(waitpid(writer, &outcome, 0), writer);
+    assert_int_equal(outcome, 0);
+    assert_non_null(text);
+    assert_int_equal(length, SIZE);
+    assert_memory_equal(text, bytes, SIZE);
+    free(text);
     free(bytes);
+}
+
+/* Also by another name. */
+static void test_outputs_are_not_read(void **state)
+{
+    (void)state;
+    put_file("a", "x", 1);
+    assert_int_equal(symlink("a", "b"), 0);
+    assert_int_equal(link("a", "c"), 0);
+    assert_int_equal(output_file_claim("b"), STATUS_DONE);
+    assert_unread("a", false, EBUSY);
+    assert_unread("c", true, EBUSY);
+    output_file_release();
+    size_t length;
+    char *text = text_file_read("a", true, SIZE, &length);
+    assert_non_null(text);
+    free(text);
 }
 
 #define TEST_IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_folder_setup, test_folder_teardown)
@@ -143,6 +145,7 @@ int main(void)
         TEST_IN_FOLDER(test_sizes),
         TEST_IN_FOLDER(test_refusals),
         TEST_IN_FOLDER(test_pipe),
+        TEST_IN_FOLDER(test_outputs_are_not_read),
     };
     return cmocka_run_group_tests_name("text_file", tests, NULL, NULL);
 }

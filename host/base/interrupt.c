@@ -1,43 +1,69 @@
 #include "base/interrupt.h"
 
+#include <pthread.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
+#include <stddef.h>
+#include <unistd.h>
 
-static volatile sig_atomic_t caught_signal, ends_process;
+#include "base/progress.h"
 
-static void catch_signal(int number)
+static const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGXCPU};
+
+enum { SIGNALS = sizeof signals / sizeof *signals, MOST_FILES = 16 };
+
+static pthread_t main_thread;
+static const char *volatile files[MOST_FILES];
+static volatile pid_t child;
+
+/* In the main thread, where it comes between two steps of what it tidies up after. */
+static void end_by(int number)
 {
-    caught_signal = number;
-    if (ends_process)
-        raise(number); /* its default action again, once this returns */
+    if (!pthread_equal(pthread_self(), main_thread)) {
+        pthread_kill(main_thread, number);
+        return;
+    }
+    for (size_t i = 0; i < MOST_FILES; ++i)
+        if (files[i])
+            unlink(files[i]);
+    if (child > 0)
+        kill(child, SIGTERM);
+    progress_wipe();
+    signal(number, SIG_DFL);
+    raise(number); /* which waits until this has returned */
 }
 
 void interrupt_catch(void)
 {
-    const struct sigaction action = {.sa_handler = catch_signal,
-                                     .sa_flags = (int)(SA_RESTART | SA_RESETHAND)};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    struct sigaction before, action = {.sa_handler = end_by, .sa_flags = SA_RESTART};
+    main_thread = pthread_self();
+    for (size_t i = 0; i < SIGNALS; ++i)
+        sigaddset(&action.sa_mask, signals[i]);
+    for (size_t i = 0; i < SIGNALS; ++i)
+        if (sigaction(signals[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(signals[i], &action, NULL);
 }
 
-void interrupt_ends_process(bool at_once)
+static bool replace(const char *path, const char *other)
 {
-    fflush(stdout);
-    ends_process = at_once;
-    if (at_once && caught_signal)
-        interrupt_die();
+    for (size_t i = 0; i < MOST_FILES; ++i)
+        if (files[i] == path) {
+            files[i] = other;
+            return true;
+        }
+    return false;
 }
 
-bool interrupt_requested(void)
+bool interrupt_removes(const char *path)
 {
-    return caught_signal != 0;
+    return replace(NULL, path);
 }
 
-_Noreturn void interrupt_die(void)
+void interrupt_leaves(const char *path)
 {
-    int number = caught_signal ? (int)caught_signal : SIGINT;
-    signal(number, SIG_DFL);
-    raise(number);
-    abort();
+    replace(path, NULL);
+}
+
+void interrupt_ends(pid_t process)
+{
+    child = process;
 }

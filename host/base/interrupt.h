@@ -2,17 +2,19 @@
 #define VKWHITTED_BASE_INTERRUPT_H
 
 #include <stdbool.h>
+#include <sys/types.h>
 
-/* Ctrl-C and SIGTERM from now on only set a flag, which long work asks for; a second one ends the process,
- * even where a driver does not come back. */
+/* From now on Ctrl-C, SIGTERM, SIGHUP, SIGPIPE and the like end the process by that signal at once, whatever
+ * it is doing, after the files and the process below have been removed and ended. A signal that is ignored at
+ * the start stays ignored (nohup). The caller's thread is the one that may use the other functions, too. */
 void interrupt_catch(void);
-bool interrupt_requested(void);
 
-/* From now on the first one ends the process where it is, or not any more: for work that may take long and
- * leaves nothing behind, neither half a file nor a device at work. */
-void interrupt_ends_process(bool at_once);
+/* A file that no interrupted process may leave behind: named before it is created, until it has been renamed
+ * or removed. The path must stay where it is. False: there are too many. */
+bool interrupt_removes(const char *path);
+void interrupt_leaves(const char *path);
 
-/* Ends the process as the caught signal would have. */
-_Noreturn void interrupt_die(void);
+/* A process that is to end with this one; 0: none. */
+void interrupt_ends(pid_t process);
 
 #endif

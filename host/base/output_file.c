@@ -7,6 +7,18 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/interrupt.h"
+
+/* The outputs that are to be written: those that exist by device and inode, the others by folder and name. */
+struct claim {
+    struct claim *next;
+    const char *path; /* as given; the caller keeps it alive */
+    char *target;
+    struct stat identity; /* of the file, or else of its folder */
+    bool exists;
+};
+static struct claim *claims;
+
 static void report(const char *path, const char *what, int error)
 {
     log_error("%s: %s: %s", path, what, strerror(error));
@@ -41,100 +53,190 @@ static char *find_target(const char *path, int *mode)
     return NULL;
 }
 
-/* Creates a file beside target under a name nobody has: exclusive and with mode 0666 it has the permissions
- * (umask, default ACL) of any new file, which mkstemp() does not give. NULL and errno on failure. */
-static FILE *create_beside(const char *target, char **temporary)
+/* The stream's own functions, so that it is known why a write failed: stdio tells only that one did. */
+static ssize_t write_all(void *cookie, const char *bytes, size_t size)
 {
-    const char *slash = strrchr(target, '/'), *name = slash ? slash + 1 : target;
-    FILE *stream = NULL;
-    errno = EEXIST;
-    for (int attempt = 0; !stream && errno == EEXIST && attempt < 100; attempt++) {
-        free(*temporary);
-        /* 200: names end at 255 bytes. */
-        if (asprintf(temporary, "%.*s.%.200s.%ld.%d", (int)(name - target), target, name, (long)getpid(),
-                     attempt) < 0) {
-            *temporary = NULL;
-            errno = ENOMEM;
-            break;
-        }
-        stream = fopen(*temporary, "w+bxe"); /* x: O_EXCL, e: O_CLOEXEC */
+    struct output_file *file = cookie;
+    size_t written = 0;
+    while (written < size && file->error == 0) {
+        ssize_t part = write(file->descriptor, bytes + written, size - written);
+        if (part < 0 && errno != EINTR)
+            file->error = errno;
+        written += part > 0 ? (size_t)part : 0;
     }
-    return stream;
+    return (ssize_t)(file->error == 0 ? size : 0);
+}
+
+/* Creates a file beside target under a name nobody has: exclusive and with mode 0666 it has the permissions
+ * (umask, default ACL) of any new file, which mkstemp() does not give. False and errno on failure. */
+static bool create_beside(struct output_file *file)
+{
+    const char *target = file->target, *slash = strrchr(target, '/'), *name = slash ? slash + 1 : target;
+    errno = EEXIST;
+    for (int attempt = 0; file->descriptor < 0 && errno == EEXIST && attempt < 100; attempt++) {
+        /* 200: names end at 255 bytes. */
+        if (asprintf(&file->temporary, "%.*s.%.200s.%ld.%d", (int)(name - target), target, name,
+                     (long)getpid(), attempt) < 0) {
+            file->temporary = NULL;
+            errno = ENOMEM;
+            return false;
+        }
+        errno = EMFILE;
+        if (interrupt_removes(file->temporary))
+            file->descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file->descriptor < 0) {
+            const int error = errno;
+            interrupt_leaves(file->temporary);
+            free(file->temporary);
+            file->temporary = NULL;
+            errno = error;
+        }
+    }
+    if (file->descriptor < 0)
+        return false;
+    file->stream = fopencookie(file, "w", (cookie_io_functions_t){.write = write_all});
+    return file->stream != NULL;
 }
 
 static void release(struct output_file *file)
 {
+    if (file->temporary)
+        interrupt_leaves(file->temporary);
     free(file->target);
     free(file->temporary);
-    *file = (struct output_file){0};
+    *file = (struct output_file){.descriptor = -1};
 }
 
 enum status output_file_open(const char *path, struct output_file *file)
 {
     int mode;
-    *file = (struct output_file){.path = path};
+    *file = (struct output_file){.path = path, .descriptor = -1};
     file->target = find_target(path, &mode);
     if (!file->target)
         return STATUS_UNABLE;
-    file->stream = create_beside(file->target, &file->temporary);
-    if (!file->stream) {
+    if (!create_beside(file)) {
         report(path, "cannot create a file there", errno);
-        release(file);
+        output_file_abandon(file);
         return STATUS_UNABLE;
     }
     if (mode >= 0) /* not possible everywhere (FAT), and no reason to lose the file */
-        (void)fchmod(fileno(file->stream), (mode_t)mode);
+        (void)fchmod(file->descriptor, (mode_t)mode);
     return STATUS_DONE;
 }
 
 bool output_file_write(struct output_file *file, const void *bytes, size_t size)
 {
-    if (file->error == 0 && fwrite(bytes, 1, size, file->stream) != size)
-        file->error = errno ? errno : EIO;
-    return file->error == 0;
+    return file->error == 0 && fwrite(bytes, 1, size, file->stream) == size;
 }
 
 bool output_file_write_at(struct output_file *file, const void *bytes, size_t size, uint64_t offset)
 {
-    if (file->error == 0 && fseeko(file->stream, (off_t)offset, SEEK_SET) != 0)
+    if (file->error == 0 && lseek(file->descriptor, (off_t)offset, SEEK_SET) < 0)
         file->error = errno;
-    return output_file_write(file, bytes, size);
+    return file->error == 0 && write_all(file, bytes, size) == (ssize_t)size;
+}
+
+static struct claim **find_claim(const struct stat *identity, bool exists, const char *name)
+{
+    struct claim **at = &claims;
+    for (; *at; at = &(*at)->next)
+        if ((*at)->exists == exists && (*at)->identity.st_dev == identity->st_dev &&
+            (*at)->identity.st_ino == identity->st_ino &&
+            (exists || strcmp(basename((*at)->target), name) == 0))
+            break;
+    return at;
+}
+
+static void drop_claim(struct claim **at)
+{
+    struct claim *claim = *at;
+    *at = claim->next;
+    free(claim->target);
+    free(claim);
 }
 
 enum status output_file_commit(struct output_file *file)
 {
-    int error = file->error;
-    errno = EIO; /* where a write failed that nobody noticed */
-    if (error == 0 && (ferror(file->stream) || fflush(file->stream) != 0 ||
-                       (fsync(fileno(file->stream)) != 0 && errno != EINVAL))) /* a file system without it */
-        error = errno;
-    if (fclose(file->stream) != 0 && error == 0)
-        error = errno;
-    const bool written = error == 0;
+    if (fflush(file->stream) != 0 && file->error == 0)
+        file->error = errno ? errno : EIO;
+    if (file->error == 0 && fsync(file->descriptor) != 0 && errno != EINVAL) /* a file system without it */
+        file->error = errno;
+    fclose(file->stream);
+    if (close(file->descriptor) != 0 && file->error == 0)
+        file->error = errno;
+    const bool written = file->error == 0;
     if (written && rename(file->temporary, file->target) != 0)
-        error = errno;
+        file->error = errno;
+    const int error = file->error;
     if (error != 0) {
         unlink(file->temporary);
         report(file->path, written ? "cannot put the finished file in place" : "cannot write", error);
     }
+    for (struct claim **at = &claims; *at;)
+        if (error == 0 && strcmp((*at)->target, file->target) == 0)
+            drop_claim(at);
+        else
+            at = &(*at)->next;
     release(file);
     return error == 0 ? STATUS_DONE : STATUS_UNABLE;
 }
 
 void output_file_abandon(struct output_file *file)
 {
-    if (!file->stream)
-        return;
-    fclose(file->stream);
-    unlink(file->temporary);
+    if (file->stream)
+        fclose(file->stream);
+    if (file->temporary && file->descriptor >= 0) {
+        close(file->descriptor);
+        unlink(file->temporary);
+    }
     release(file);
 }
 
-enum status output_file_check(const char *path)
+/* What stat() tells of the folder of the path. */
+static bool stat_folder(const char *path, struct stat *about)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? strndup(path, (size_t)(slash + 1 - path)) : strdup(".");
+    const bool found = folder && stat(folder, about) == 0;
+    free(folder);
+    return found;
+}
+
+enum status output_file_claim(const char *path)
 {
     struct output_file file;
+    struct claim claim = {.next = claims, .path = path};
     enum status status = output_file_open(path, &file);
-    if (status == STATUS_DONE)
-        output_file_abandon(&file);
-    return status;
+    if (status != STATUS_DONE)
+        return status;
+    claim.exists = stat(file.target, &claim.identity) == 0;
+    bool known = claim.exists || stat_folder(file.target, &claim.identity);
+    struct claim *same = *find_claim(&claim.identity, claim.exists, basename(file.target));
+    struct claim *kept = malloc(sizeof *kept);
+    claim.target = strdup(file.target);
+    output_file_abandon(&file);
+    if (known && !same && kept && claim.target) {
+        *kept = claim;
+        claims = kept;
+        return STATUS_DONE;
+    }
+    if (known && same)
+        log_error("%s: is written already, as %s", path, same->path);
+    else
+        log_error("%s: no memory for its name", path);
+    free(kept);
+    free(claim.target);
+    return known && same ? STATUS_REFUSED : STATUS_UNABLE;
+}
+
+const char *output_file_claimed(const struct stat *identity)
+{
+    const struct claim *claim = *find_claim(identity, true, "");
+    return claim ? claim->path : NULL;
+}
+
+void output_file_release(void)
+{
+    while (claims)
+        drop_claim(&claims);
 }

@@ -2,11 +2,17 @@
 
 #include <stdatomic.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/escape.h"
 
 enum { BAR_WIDTH = 40 };
+
+/* Not by stdio, which escapes control characters (escape.h). */
+static const char wipe[] = "\r\033[K";
+static const char *const wipe_behind = "\033[K";
 
 static atomic_bool visible;
 static bool allowed = true;
@@ -81,17 +87,22 @@ void progress_advance(struct progress *progress, uint64_t amount)
     if (elapsed_ms - progress->moved_ms > left_ms && progress->done < progress->total)
         left_ms = elapsed_ms - progress->moved_ms; /* it has come to what takes longer than the rest */
     int filled = (int)(fraction * (double)BAR_WIDTH);
-    fprintf(stderr, "\r%s [%.*s%*s] %3.0f %%  %s left \033[K", progress->label, filled,
+    char label[128] = "", shown[ESCAPED_SIZE];
+    const char *at = progress->label, *end = at + strlen(at);
+    while (at < end && strlen(label) + ESCAPED_SIZE < sizeof label) {
+        at += escape_character(at, (size_t)(end - at), shown);
+        strcat(label, shown);
+    }
+    dprintf(STDERR_FILENO, "\r%s [%.*s%*s] %3.0f %%  %s left %s", label, filled,
             "########################################", BAR_WIDTH - filled, "", fraction * 100,
-            print_duration(left_ms / 1000, text));
-    fflush(stderr);
+            print_duration(left_ms / 1000, text), wipe_behind);
     visible = true;
 }
 
 void progress_wipe(void)
 {
-    if (atomic_exchange(&visible, false))
-        fputs("\r\033[K", stderr);
+    if (atomic_exchange(&visible, false) && write(STDERR_FILENO, wipe, sizeof wipe - 1) < 0)
+        visible = true;
 }
 
 void progress_end(struct progress *progress)

@@ -27,7 +27,8 @@ void progress_begin(struct progress *progress, uint64_t amount);
 /* So much more is done, or 0: the time that is left is then as long as nothing has moved, at least. */
 void progress_advance(struct progress *progress, uint64_t amount);
 
-/* Wipes the bar; the next advance shows it again. Messages (status.h) do so before they appear. */
+/* Wipes the bar; the next advance shows it again. Messages (status.h) do so before they appear. May
+ * be called by a signal's handler. */
 void progress_wipe(void);
 
 /* Wipes the bar for good, done or not. */

@@ -4,20 +4,44 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/interrupt.h"
+#include "base/output_file.h"
 
-/* Waits for a pipe or terminal with poll(), which returns after a signal: read() would wait on. */
-static ssize_t read_some(int file, char *bytes, size_t size)
+int input_file_open(const char *path, bool regular_only, off_t *size)
+{
+    struct stat about;
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    if (file < 0)
+        return -1;
+    int error = fstat(file, &about) != 0                  ? errno
+                : S_ISDIR(about.st_mode)                  ? EISDIR
+                : regular_only && !S_ISREG(about.st_mode) ? EINVAL
+                : output_file_claimed(&about)             ? EBUSY
+                                                          : 0;
+    *size = about.st_size;
+    if (error == 0)
+        return file;
+    close(file);
+    errno = error;
+    return -1;
+}
+
+ssize_t input_file_read(int file, void *bytes, size_t size)
 {
     struct pollfd wanted = {.fd = file, .events = POLLIN};
-    ssize_t got;
-    do
-        got = poll(&wanted, 1, -1) < 0 ? -1 : read(file, bytes, size);
-    while (got < 0 && (errno == EINTR || errno == EAGAIN) && !interrupt_requested());
-    return got;
+    size_t got = 0;
+    while (got < size) {
+        ssize_t part = poll(&wanted, 1, -1) < 0 ? -1 : read(file, (char *)bytes + got, size - got);
+        if (part < 0 && errno != EINTR && errno != EAGAIN)
+            return -1;
+        if (part == 0)
+            break;
+        got += part > 0 ? (size_t)part : 0;
+    }
+    return (ssize_t)got;
 }
 
 /* Reads to the end of the file, whatever its size was. NULL and errno on failure. */
@@ -27,19 +51,19 @@ static char *read_open_file(int file, size_t most, size_t *length)
     size_t room = 0, size = 0;
     ssize_t got = 1;
     while (got > 0) {
-        if (size == room) {
-            room = room ? 2 * room : 4096;
-            char *larger = realloc(text, room + 1);
-            if (!larger)
-                break;
-            text = larger;
-        }
-        got = read_some(file, text + size, room - size);
+        room = room ? 2 * room : 4096;
+        char *larger = realloc(text, room + 1);
+        if (!larger)
+            break;
+        text = larger;
+        got = input_file_read(file, text + size, room - size);
         size += got > 0 ? (size_t)got : 0;
         if (size > most) {
             errno = EFBIG;
             break;
         }
+        if (size < room && got > 0)
+            got = 0; /* the end */
     }
     if (got != 0) {
         free(text); /* which leaves errno alone */
@@ -52,21 +76,37 @@ static char *read_open_file(int file, size_t most, size_t *length)
 
 char *text_file_read(const char *path, bool regular_only, size_t most, size_t *length)
 {
-    struct stat about;
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    off_t size;
+    int file = input_file_open(path, regular_only, &size);
     if (file < 0)
         return NULL;
-    char *text = NULL;
-    if (fstat(file, &about) == 0) {
-        if (S_ISDIR(about.st_mode))
-            errno = EISDIR;
-        else if (regular_only && !S_ISREG(about.st_mode))
-            errno = EINVAL;
-        else
-            text = read_open_file(file, most, length);
-    }
+    char *text = read_open_file(file, most, length);
     int error = errno;
     close(file);
     errno = error;
     return text;
+}
+
+const char *input_file_problem(int error)
+{
+    switch (error) {
+    case EISDIR:
+        return "is a folder, not a file";
+    case EINVAL:
+        return "is not a regular file";
+    case EBUSY:
+        return "is also to be written";
+    default:
+        return strerror(error);
+    }
+}
+
+enum status input_file_status(int error)
+{
+    static const int of_the_user[] = {ENOENT, ENOTDIR, EACCES, EPERM, ELOOP, ENAMETOOLONG,
+                                      EISDIR, EINVAL,  EBUSY,  EFBIG, ENXIO, ENODEV};
+    for (size_t i = 0; i < sizeof of_the_user / sizeof *of_the_user; ++i)
+        if (error == of_the_user[i])
+            return STATUS_REFUSED;
+    return STATUS_UNABLE;
 }

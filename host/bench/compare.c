@@ -1,8 +1,13 @@
+#include <errno.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/statistics.h"
+#include "base/text_file.h"
 #include "bench/document.h"
+
+enum { MOST_BYTES = 256 << 20 }; /* of a document */
 
 static const double standard_errors = 4, least_change = 0.05, printing_error = 1e-6;
 
@@ -15,19 +20,27 @@ static const double quartile_distance = 1.349;
 enum status bench_document_read(const char *path, json_t **document)
 {
     json_error_t error;
-    *document = json_load_file(path, JSON_REJECT_DUPLICATES, &error);
+    size_t length;
+    char *text = text_file_read(path, false, MOST_BYTES, &length);
+    *document = NULL;
+    if (!text) {
+        log_error("%s: %s", path, input_file_problem(errno));
+        return input_file_status(errno);
+    }
+    *document = json_loadb(text, length, JSON_REJECT_DUPLICATES, &error);
+    free(text);
     if (json_is_array(json_object_get(*document, "scenes")) &&
         json_is_object(json_object_get(*document, "machine")))
         return STATUS_DONE;
-    if (*document)
+    const bool is_json = *document,
+               no_memory = !is_json && json_error_code(&error) == json_error_out_of_memory;
+    if (is_json)
         log_error("%s: expected a file that bench --json wrote", path);
-    else if (error.line > 0)
-        log_error("%s:%d:%d: %s", path, error.line, error.column, error.text);
     else
-        log_error("%s: %s", path, error.text);
+        log_error("%s:%d:%d: %s", path, error.line, error.column, error.text);
     json_decref(*document);
     *document = NULL;
-    return STATUS_REFUSED;
+    return no_memory ? STATUS_UNABLE : STATUS_REFUSED;
 }
 
 static bool same_text(const json_t *a, const json_t *b, const char *key)

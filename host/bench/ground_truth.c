@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/interrupt.h"
 #include "base/statistics.h"
 #include "image/srgb.h"
 #include "tracer/reference_scene.h"
@@ -55,8 +54,6 @@ static enum status render(const struct packed_scene *scene, enum precision preci
     }
 #pragma omp parallel for schedule(dynamic)
     for (size_t i = 0; i < count; ++i) {
-        if (interrupt_requested())
-            continue;
         struct reference_rays rays = render_pixel(scene, precision, i, pixels);
 #pragma omp critical
         {
@@ -68,10 +65,7 @@ static enum status render(const struct packed_scene *scene, enum precision preci
                 progress_advance(progress, now - before);
         }
     }
-    if (!interrupt_requested())
-        return STATUS_DONE;
-    grid_pixels_destroy(pixels);
-    return STATUS_INTERRUPTED;
+    return STATUS_DONE;
 }
 
 /* What a ray costs, in spheres that are looped over: a walk through the tree looks at some 16 balls and

@@ -37,7 +37,7 @@ struct grid_pixels {
 
 /* Renders pixels of the picture with the reference on all processors: the finest grid that is about so much
  * work, in rays times objects. Advances progress by `share` in all. On STATUS_DONE the caller frees the
- * pixels; otherwise they are empty, and the reason is reported, except for STATUS_INTERRUPTED. */
+ * pixels; otherwise they are empty, and the reason is reported. */
 enum status grid_render(const struct packed_scene *packed, enum precision precision, bool explained,
                         double work, struct progress *progress, unsigned share, struct grid_pixels *pixels);
 void grid_pixels_destroy(struct grid_pixels *pixels);

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "base/clock.h"
-#include "base/interrupt.h"
 #include "base/statistics.h"
 
 /* Renders a started point; on the CPU its picture replaces the image's. */
@@ -149,9 +148,7 @@ static enum status run_rounds(struct bench *bench)
             if (point->run_count >= (is_over ? effort->runs.least : effort->runs.most))
                 continue;
             going_on = true;
-            status = interrupt_requested()
-                         ? STATUS_INTERRUPTED
-                         : run_point(point, &bench->image, &point->runs_ms[point->run_count]);
+            status = run_point(point, &bench->image, &point->runs_ms[point->run_count]);
             point->spent_ms += clock_ms() - run_start;
             point->run_count += status == STATUS_DONE;
             uint64_t now = (uint64_t)((double)RUNS_SHARE * elapsed);

@@ -22,7 +22,6 @@ static enum status measure(const struct options *options, struct vulkan_context 
         if (i > 0)
             putchar('\n');
         bench_print_scene(scene, stdout);
-        fflush(stdout);
         if (json_array_append_new(json_object_get(document, "scenes"), scene) != 0) {
             log_error("no memory for the result of %s", options->scenes[i]);
             return STATUS_UNABLE;
@@ -31,6 +30,7 @@ static enum status measure(const struct options *options, struct vulkan_context 
     return STATUS_DONE;
 }
 
+/* Each of them, also where another one fails. */
 static enum status deliver(const struct options *options, json_t *document, const json_t *old)
 {
     json_t *scene;
@@ -38,13 +38,13 @@ static enum status deliver(const struct options *options, json_t *document, cons
     size_t i;
     json_array_foreach(json_object_get(document, "scenes"), i, scene)
         json_object_del(scene, "pictures"); /* for the report alone */
-    if (status == STATUS_DONE && options->csv)
-        status = bench_csv_write(document, options->csv);
-    if (status == STATUS_DONE && options->json)
-        status = json_write(json_incref(document), options->json);
-    if (status == STATUS_DONE && old) {
+    if (options->csv)
+        status = status_worse(status, bench_csv_write(document, options->csv));
+    if (options->json)
+        status = status_worse(status, json_write(json_incref(document), options->json));
+    if (old) {
         putchar('\n');
-        status = bench_compare(old, document, stdout);
+        status = status_worse(status, bench_compare(old, document, stdout));
     }
     return status;
 }

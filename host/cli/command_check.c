@@ -11,21 +11,17 @@
 #include "check/heatmap.h"
 #include "check/judge.h"
 #include "check/junit.h"
+#include "check/verdict.h"
 #include "tracer/job.h"
 
 /* The command's state: results gets a JSON object for each scene, junit a test case. */
 struct check {
     const struct options *options;
-    struct vulkan_context *context; /* NULL with --backend cpu */
+    struct vulkan_context *context; /* NULL with --backend cpu and --picture */
     json_t *results;
     struct junit junit;
     char reason[256 + PATH_MAX]; /* why the last scene failed that did */
 };
-
-static enum status worse(enum status a, enum status b)
-{
-    return a > b ? a : b;
-}
 
 /* The file for the heatmap of a scene with this status; NULL: none. In a folder it has the scene's path
  * without suffix, with - for /. */
@@ -74,7 +70,8 @@ static enum status compare(struct check *check, const char *scene, const struct 
     status = comparison.differing <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
     comparison_print(&comparison, scene, options->allow);
     if (options->json)
-        status = worse(status, add_result(check, scene, comparison_json(&comparison, scene, options->allow)));
+        status = status_worse(status,
+                              add_result(check, scene, comparison_json(&comparison, scene, options->allow)));
     snprintf(check->reason, sizeof check->reason,
              "%zu pixels differ, the first at (%u, %u), the largest error %.9g at (%u, %u)",
              comparison.differing, comparison.first_x, comparison.first_y, comparison.max_error, comparison.x,
@@ -82,7 +79,7 @@ static enum status compare(struct check *check, const char *scene, const struct 
     char path[PATH_MAX];
     const char *heatmap = heatmap_path(options, scene, status, path);
     name_heatmap(check, heatmap);
-    return heatmap ? worse(status, heatmap_write(device, reference, heatmap)) : status;
+    return heatmap ? status_worse(status, heatmap_write(device, reference, heatmap)) : status;
 }
 
 /* Compares the device's picture with the reference's in the same precision. */
@@ -113,14 +110,14 @@ static enum status judge(struct check *check, const char *scene, const struct im
     status = judgement.unexplained <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
     judgement_print(&judgement, scene, precision, options->allow);
     if (options->json)
-        status = worse(
+        status = status_worse(
             status, add_result(check, scene, judgement_json(&judgement, scene, precision, options->allow)));
     snprintf(check->reason, sizeof check->reason, "%zu pixels unexplained, the first at (%u, %u)",
              judgement.unexplained, judgement.unexplained_x, judgement.unexplained_y);
     char path[PATH_MAX];
     const char *heatmap = heatmap_path(options, scene, status, path);
     name_heatmap(check, heatmap);
-    return heatmap ? worse(status, judgement_heatmap(image, explanations, heatmap)) : status;
+    return heatmap ? status_worse(status, judgement_heatmap(image, explanations, heatmap)) : status;
 }
 
 /* Judges the device's picture, or without a device that of the reference's float build, by the exact picture.
@@ -147,14 +144,74 @@ static enum status check_by_exact_picture(struct check *check, const char *scene
     return status;
 }
 
+/* Where the picture's largest error is, as it is shown by the command that shows why. */
+static void print_command(const struct options *options, const char *scene, const struct verdicts *verdicts)
+{
+    const struct window *crop = &options->job.plan.window;
+    log_notice("see 'vkwhitted pixel %s %u %u --against %s', and the options of this picture", scene,
+               verdicts->x + crop->x, verdicts->y + crop->y, precision_name(options->against));
+}
+
+static enum status report_picture(struct check *check, const char *scene, const struct read_image *picture,
+                                  const struct reference_explanation *explanations)
+{
+    const struct options *options = check->options;
+    const char *precision = precision_name(options->against);
+    struct verdicts verdicts;
+    enum status status = verdicts_find(picture, explanations, &options->tolerance, &verdicts);
+    verdicts_print(&verdicts, scene, options->picture, precision, options->allow);
+    if (status == STATUS_DIFFERS)
+        print_command(options, scene, &verdicts);
+    status = verdicts_wrong(&verdicts) <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
+    if (options->json)
+        status = status_worse(
+            status, add_result(check, scene,
+                               verdicts_json(&verdicts, scene, options->picture, precision, options->allow)));
+    snprintf(check->reason, sizeof check->reason,
+             "%zu pixels of %s wrong, the largest error %.3g at (%u, %u)", verdicts_wrong(&verdicts),
+             options->picture, verdicts.error, verdicts.x, verdicts.y);
+    char path[PATH_MAX];
+    const char *heatmap = heatmap_path(options, scene, status, path);
+    name_heatmap(check, heatmap);
+    return heatmap
+               ? status_worse(status, verdicts_heatmap(picture, explanations, &options->tolerance, heatmap))
+               : status;
+}
+
+/* Judges a file's picture by the exact one. */
+static enum status check_file(struct check *check, const char *scene, const struct render_plan *plan)
+{
+    const struct options *options = check->options;
+    struct read_image picture;
+    struct reference_explanation *explanations = NULL;
+    enum status status =
+        image_read(options->picture, &(struct image_wanted){plan->window, options->transfer}, &picture);
+    if (status != STATUS_DONE)
+        return status;
+    if (plan->scene->quad_light_count > 0 && !options->has_tolerance)
+        log_warning(
+            "%s: a quad light is estimated with points of this program's choice; a picture that has others "
+            "differs by their noise, see --light-samples and --tolerance",
+            scene);
+    status = explain_on_cpu(plan, options->against, &explanations);
+    if (status == STATUS_DONE)
+        status = report_picture(check, scene, &picture, explanations);
+    free(explanations);
+    read_image_destroy(&picture);
+    return status;
+}
+
 static enum status check_scene(struct check *check, const char *scene)
 {
     struct job job;
     enum status status = job_create(&check->options->job, scene, &job);
     if (status != STATUS_DONE)
         return status;
-    status = float_limit_warn(&job);
-    if (status == STATUS_DONE && check->options->against == PRECISION_FLOAT)
+    if (!check->options->picture)
+        status = float_limit_warn(&job);
+    if (status == STATUS_DONE && check->options->picture)
+        status = check_file(check, scene, &job.plan);
+    else if (status == STATUS_DONE && check->options->against == PRECISION_FLOAT)
         status = check_by_reference(check, scene, &job.plan);
     else if (status == STATUS_DONE)
         status = check_by_exact_picture(check, scene, &job.plan);
@@ -170,27 +227,26 @@ enum status command_check(const struct options *options)
         log_error("%s: cannot make the folder: %s", options->heatmap, strerror(errno));
         return STATUS_UNABLE;
     }
-    if (options->backend == BACKEND_VULKAN)
+    if (options->backend == BACKEND_VULKAN && !options->picture)
         status = vulkan_context_create(&options->vulkan, &check.context);
     if (status != STATUS_DONE)
         return status;
     check.results = json_array();
     junit_create(&check.junit);
-    for (size_t i = 0; i < options->scene_count && status != STATUS_INTERRUPTED; ++i) {
+    for (size_t i = 0; i < options->scene_count; ++i) {
         const double start = clock_ms();
         const enum status outcome = check_scene(&check, options->scenes[i]);
         junit_add(&check.junit, options->scenes[i], (clock_ms() - start) / 1e3, outcome, check.reason);
-        status = worse(status, outcome);
+        status = status_worse(status, outcome);
     }
     const char *device = check.context ? check.context->properties.deviceName : "cpu";
-    if (options->json && status != STATUS_INTERRUPTED) {
+    if (options->json && json_array_size(check.results) > 0) {
         json_t *document = json_pack("{s:s, s:s, s:O}", "device", device, "driver",
                                      check.context ? check.context->driver.driverInfo : "plain-C reference",
                                      "scenes", check.results);
-        status = worse(status, json_write(document, options->json));
+        status = status_worse(status, json_write(document, options->json));
     }
     json_decref(check.results);
-    status = worse(status,
-                   junit_write(&check.junit, device, status == STATUS_INTERRUPTED ? NULL : options->junit));
-    return worse(status, vulkan_context_destroy(&check.context));
+    status = status_worse(status, junit_write(&check.junit, device, options->junit));
+    return status_worse(status, vulkan_context_destroy(&check.context));
 }

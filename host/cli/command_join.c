@@ -11,8 +11,8 @@ enum status command_join(const struct options *options)
     const struct image_rows rows = join_rows(join);
     struct image_metadata metadata = join_metadata(join);
     metadata.transfer = options->transfer;
-    for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
-        status = image_write_rows(&rows, options->outputs[i], &metadata);
+    for (size_t i = 0; i < options->output_count; ++i)
+        status = status_worse(status, image_write_rows(&rows, options->outputs[i], &metadata));
     if (status == STATUS_DONE)
         log_notice("%ux%u from %zu tiles", rows.width, rows.height, options->scene_count);
     join_destroy(&join);

@@ -1,6 +1,7 @@
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/output_file.h"
@@ -138,6 +139,13 @@ static enum status check_consistency(const struct options *options)
         {command == COMMAND_PIXEL && precision == PRECISION_QUAD,
          "pixel computes in float or double; see --against"},
         {command == COMMAND_PIXEL && scenes != 3, "pixel takes a scene file, a column and a row"},
+        {command == COMMAND_CHECK && options->transfer != TRANSFER_SRGB && !options->picture,
+         "--transfer is for the .png of --picture"},
+        {options->picture && scenes > 1, "--picture takes one scene file"},
+        {options->picture &&
+             (cpu || options->vulkan.device || options->vulkan.validate || options->job.plan.fast ||
+              precision != PRECISION_FLOAT || options->job.has_max_error || options->shaders.path),
+         "--picture goes with no device, backend or precision: the exact picture is computed on the CPU"},
         {precision == PRECISION_QUAD && !cpu, "--precision quad needs --backend cpu"},
         {precision != PRECISION_FLOAT && (options->job.plan.fast || against),
          "--fast and --against go with --precision float"},
@@ -145,7 +153,7 @@ static enum status check_consistency(const struct options *options)
         {cpu && (options->vulkan.device || options->vulkan.validate || options->shaders.path),
          "--device, --shaders and --validate do not go with --backend cpu"},
         {cpu && command == COMMAND_CHECK && !against, "check --backend cpu needs --against double or quad"},
-        {against && options->has_tolerance,
+        {against && options->has_tolerance && !options->picture,
          "--tolerance does not go with --against, which derives a bound for every pixel"},
         {against && options->job.has_max_error,
          "--max-error does not go with --against, which judges rounding alone"},
@@ -193,18 +201,38 @@ static enum status find_scenes(struct options *options)
     return STATUS_DONE;
 }
 
-/* Whether all outputs can be written, before anything is computed. */
-static enum status check_outputs(const struct options *options)
+static const char *file_of(const struct option_entry *option, const struct options *options,
+                           bool (*kind)(const struct option_entry *, const char *, void *))
 {
-    const char *const paths[] = {options->stats,  options->json,
-                                 options->junit,  options_heatmap_folder(options) ? NULL : options->heatmap,
-                                 options->report, options->csv};
+    return option->read == kind ? *(const char *const *)((const char *)options + option->offset) : NULL;
+}
+
+static enum status check_input(const char *path)
+{
+    struct stat identity;
+    const char *output = path && stat(path, &identity) == 0 ? output_file_claimed(&identity) : NULL;
+    if (!output)
+        return STATUS_DONE;
+    log_error("%s: is read, and is to be written as %s", path, output);
+    return STATUS_REFUSED;
+}
+
+/* Whether all outputs can be written, and are neither each other nor an input, before anything is computed.
+ */
+static enum status check_files(const struct options *options)
+{
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
         status = image_write_check(options->outputs[i]);
-    for (size_t i = 0; i < sizeof paths / sizeof *paths && status == STATUS_DONE; ++i)
-        if (paths[i])
-            status = output_file_check(paths[i]);
+    for (const struct option_entry *option = option_table; option->help && status == STATUS_DONE; ++option) {
+        const char *path = file_of(option, options, read_output_file);
+        if (path && !(path == options->heatmap && options_heatmap_folder(options)))
+            status = output_file_claim(path);
+    }
+    for (const struct option_entry *option = option_table; option->help && status == STATUS_DONE; ++option)
+        status = check_input(file_of(option, options, read_input_file));
+    for (size_t i = 0; i < options->scene_count && status == STATUS_DONE; ++i)
+        status = check_input(options->scenes[i]);
     return status;
 }
 
@@ -234,11 +262,13 @@ enum status command_line_read(int argc, char **argv, struct options *options)
     if (options->command == COMMAND_WATCH && options->output_count == 0)
         options->window = options->window || getenv("DISPLAY") || getenv("WAYLAND_DISPLAY");
     status = check_consistency(options);
+    if (options->picture && options->against == PRECISION_FLOAT)
+        options->against = PRECISION_DOUBLE;
     if (status == STATUS_DONE && options->command == COMMAND_PIXEL)
         status = read_place(options);
     if (status == STATUS_DONE)
         status = find_scenes(options);
-    return status == STATUS_DONE ? check_outputs(options) : status;
+    return status == STATUS_DONE ? check_files(options) : status;
 }
 
 void options_destroy(struct options *options)

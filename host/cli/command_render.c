@@ -65,8 +65,8 @@ static enum status deliver(const struct options *options, const struct job *job,
     enum status status =
         job_write(job, &rendering->image, options->outputs, options->output_count, options->transfer, device);
     double write_ms = clock_ms() - start;
-    if (status == STATUS_DONE && options->stats)
-        status = write_stats(options, job, rendering, context, device, write_ms);
+    if (options->stats)
+        status = status_worse(status, write_stats(options, job, rendering, context, device, write_ms));
     if (status == STATUS_DONE)
         log_notice("%s: %ux%u in %.1f ms on %s (set-up %.1f ms, writing %.1f ms)", options->scenes[0],
                    rendering->image.width, rendering->image.height, rendering->times.dispatch_ms, device,

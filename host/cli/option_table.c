@@ -39,6 +39,16 @@ static bool read_text(const struct option_entry *option, const char *value, void
     return true;
 }
 
+bool read_input_file(const struct option_entry *option, const char *value, void *place)
+{
+    return read_text(option, value, place);
+}
+
+bool read_output_file(const struct option_entry *option, const char *value, void *place)
+{
+    return read_text(option, value, place);
+}
+
 static bool read_output(const struct option_entry *option, const char *value, void *place)
 {
     (void)option;
@@ -145,6 +155,8 @@ enum {
 /* The members from `value` to `most`. */
 #define FLAG(member) NULL, read_flag, offsetof(struct options, member), 0, 0
 #define TEXT(value, member) value, read_text, offsetof(struct options, member), 0, 0
+#define INPUT(value, member) value, read_input_file, offsetof(struct options, member), 0, 0
+#define OUTPUT(value, member) value, read_output_file, offsetof(struct options, member), 0, 0
 #define NUMBER(member, least, most) "N", read_number, offsetof(struct options, member), least, most
 #define CHOICE(words, member, first) words, read_choice, offsetof(struct options, member), first, 0
 #define OTHER(value, read) value, read, 0, 0, 0 /* read() gets the whole struct options */
@@ -181,13 +193,13 @@ const struct option_entry option_table[] = {
 
     {"", "o", RENDER | JOIN | WATCH, OTHER("FILE", read_output),
      "write the picture; may be given several times"},
-    {"transfer", "", RENDER | JOIN | WATCH, CHOICE("srgb|linear", transfer, TRANSFER_SRGB),
+    {"transfer", "", RENDER | JOIN | WATCH | CHECK, CHOICE("srgb|linear", transfer, TRANSFER_SRGB),
      "of 8-bit files (default srgb)"},
 
     {"tile", "", RENDER, OTHER("I/N", read_tile),
      "only the Ith of N parts of the picture, from 1, as .exr;\n"
-     "'vkwhitted join' makes one picture of all of them"},
-    {"stats", "", RENDER, TEXT("FILE", stats), "times, rays and device as JSON"},
+     "join makes one picture of all of them"},
+    {"stats", "", RENDER, OUTPUT("FILE", stats), "times, rays and device as JSON"},
     {"repeat", "", RENDER, NUMBER(job.plan.repeat, 1, 100000),
      "render again as often; the time is the median of these"},
 
@@ -195,16 +207,19 @@ const struct option_entry option_table[] = {
      "a and b agree where |a - b| <= ABS + REL max(|a|, |b|)\n"
      "(default: where they are the same bits)"},
     {"allow", "", CHECK, NUMBER(allow, 0, UINT_MAX), "pixels that may differ or be unexplained"},
-    {"heatmap", "", CHECK, TEXT("FILE.png", heatmap),
+    {"heatmap", "", CHECK, OUTPUT("FILE.png", heatmap),
      "where they differ, as a picture; DIR/: one for each scene\n"
      "that differs, in that folder"},
-    {"junit", "", CHECK, TEXT("FILE.xml", junit), "the result for CI, a test case a scene"},
+    {"picture", "", CHECK, INPUT("FILE", picture),
+     "judge this picture (.exr, .pfm, .png) by any other program\n"
+     "instead of one's own (default --against double)"},
+    {"junit", "", CHECK, OUTPUT("FILE.xml", junit), "the result for CI, a test case a scene"},
 
     {"against", "", CHECK | PIXEL, CHOICE("double|quad", against, PRECISION_DOUBLE),
      "judge the float picture by a more precise one: errors, their\n"
      "bounds, and pixels that are beyond them"},
 
-    {"json", "", CHECK | PIXEL | BENCH, TEXT("FILE", json), "the result for machines"},
+    {"json", "", CHECK | PIXEL | BENCH, OUTPUT("FILE", json), "the result for machines"},
 
     {"check", "", WATCH, FLAG(check), "compare each picture with the reference in the background"},
     {"window", "", WATCH, FLAG(window),
@@ -213,9 +228,9 @@ const struct option_entry option_table[] = {
      "S saves the picture, D shows where it differs, Esc ends"},
 
     {"quick", "", BENCH, FLAG(quick), "fewer settings and runs: half a minute a scene"},
-    {"report", "", BENCH, TEXT("FILE.html", report), "all of it on one page, with charts"},
-    {"csv", "", BENCH, TEXT("FILE", csv), "the measurements, one a line"},
-    {"compare", "", BENCH, TEXT("OLD.json", compare),
+    {"report", "", BENCH, OUTPUT("FILE.html", report), "all of it on one page, with charts"},
+    {"csv", "", BENCH, OUTPUT("FILE", csv), "the measurements, one a line"},
+    {"compare", "", BENCH, INPUT("OLD.json", compare),
      "what became faster, slower or less accurate beyond noise since\n"
      "the bench that wrote this with --json"},
 

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/text_file.h"
 #include "image/exr_error.h"
 
 struct exr_input {
@@ -29,10 +30,14 @@ enum status exr_input_open(const char *path, struct exr_input **input)
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     initializer.error_handler_fn = exr_error_keep;
     *input = NULL;
-    if (access(path, R_OK) != 0) {
-        log_error("%s: cannot read: %s", path, strerror(errno));
-        return STATUS_UNABLE;
+    off_t size;
+    const int file = input_file_open(path, true, &size);
+    if (file < 0) {
+        const int error = errno;
+        log_error("%s: cannot read: %s", path, input_file_problem(error));
+        return input_file_status(error);
     }
+    close(file);
     struct exr_input *opened = calloc(1, sizeof *opened);
     if (!opened) {
         log_error("%s: no memory to read it", path);

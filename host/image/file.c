@@ -78,5 +78,5 @@ enum status image_write(const struct image *image, const char *path, const struc
 
 enum status image_write_check(const char *path)
 {
-    return image_format_of(path) == IMAGE_FORMAT_UNKNOWN ? STATUS_REFUSED : output_file_check(path);
+    return image_format_of(path) == IMAGE_FORMAT_UNKNOWN ? STATUS_REFUSED : output_file_claim(path);
 }

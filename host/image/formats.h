@@ -26,8 +26,9 @@ struct png_source {
     const void *context;
 };
 
-/* Writes the picture to the stream, which goes by that name in messages. STATUS_UNABLE (reported) where it
- * cannot be written, or what a row fails with; what the stream still holds back has yet to be flushed. */
+/* Writes the picture to the stream, which goes by that name in messages. STATUS_UNABLE where it cannot be
+ * written, reported unless the stream has an error, which is its owner's to report, or what a row fails with;
+ * what the stream still holds back has yet to be flushed. */
 enum status png_encode(const struct png_source *source, FILE *stream, const char *name);
 
 /* Writes the picture to a file, whole or not at all. */

@@ -1,4 +1,3 @@
-#include <errno.h>
 #include <png.h>
 #include <setjmp.h>
 #include <stdio.h>
@@ -22,9 +21,7 @@ struct png_output {
 static void on_error(png_structp png, png_const_charp message)
 {
     const struct png_output *output = png_get_error_ptr(png);
-    if (ferror(output->stream))
-        log_error("%s: cannot write: %s", output->name, strerror(errno ? errno : EIO));
-    else
+    if (!ferror(output->stream))
         log_error("%s: cannot write PNG: %s", output->name, message);
     png_longjmp(png, 1);
 }
@@ -117,7 +114,7 @@ enum status png_write(const struct png_source *source, const char *path)
     enum status status = output_file_open(path, &file);
     if (status == STATUS_DONE)
         status = png_encode(source, file.stream, path);
-    if (status == STATUS_DONE)
+    if (status == STATUS_DONE || file.error != 0) /* which is reported there */
         return output_file_commit(&file);
     output_file_abandon(&file);
     return status;

@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/escape.h"
+#include "base/status.h"
+
 enum { SHOWN_AROUND = 100 }; /* bytes of a long line on either side of the caret */
 
 static bool is_continuation(char byte)
@@ -48,6 +51,15 @@ static const char *next_character(const char *at, const char *end)
     return at;
 }
 
+/* As escape_character(), but for a tab, which stays. */
+static size_t show(const char *text, size_t length, char shown[ESCAPED_SIZE])
+{
+    const size_t taken = escape_character(text, length, shown);
+    if (*text == '\t')
+        strcpy(shown, "\t");
+    return taken;
+}
+
 static void print_line_and_caret(const struct diagnostics *report, struct scene_place place)
 {
     const char *start = report->text, *end = start + report->length, *caret, *stop;
@@ -61,9 +73,18 @@ static void print_line_and_caret(const struct diagnostics *report, struct scene_
     for (stop = caret; !is_line_end(stop, end) && stop - caret < SHOWN_AROUND;)
         stop = next_character(stop, end);
 
-    fprintf(stderr, "%.*s\n", (int)(stop - start), start);
-    for (; start < caret; start = next_character(start, end))
-        fputc(*start == '\t' ? '\t' : ' ', stderr);
+    char shown[ESCAPED_SIZE];
+    for (const char *at = start; at < stop;) {
+        at += show(at, (size_t)(stop - at), shown);
+        fputs(shown, stderr);
+    }
+    fputc('\n', stderr);
+    while (start < caret) {
+        const size_t taken = show(start, (size_t)(stop - start), shown);
+        const bool as_it_is = strlen(shown) == taken && memcmp(shown, start, taken) == 0;
+        fprintf(stderr, "%*s", as_it_is ? 1 : (int)strlen(shown), *start == '\t' ? "\t" : "");
+        start += taken;
+    }
     fputs("^\n", stderr);
 }
 
@@ -72,13 +93,13 @@ void report_print(struct diagnostics *report)
     flockfile(stderr);
     for (size_t i = 0; i < report->count && i < REPORT_MAX_ERRORS; i++) {
         const struct scene_error *error = &report->errors[i];
-        fprintf(stderr, "%s:%d:%d: error: %s\n", report->path, error->place.line, error->place.column,
-                error->message ? error->message : "");
+        report_line("%s:%d:%d: error: %s", report->path, error->place.line, error->place.column,
+                    error->message ? error->message : "");
         print_line_and_caret(report, error->place);
         free(error->message);
     }
     if (report->count > REPORT_MAX_ERRORS)
-        fprintf(stderr, "%s: error: %zu more errors\n", report->path, report->count - REPORT_MAX_ERRORS);
+        report_line("%s: error: %zu more errors", report->path, report->count - REPORT_MAX_ERRORS);
     funlockfile(stderr);
     report->count = 0;
 }
@@ -99,13 +120,8 @@ const char *report_quote(const char *text, size_t length, char out[REPORT_QUOTE_
         for (kept = room; kept > 0 && is_continuation(text[kept]); kept--)
             ;
     out[0] = '"';
-    for (size_t i = 0; i < kept; i++) {
-        unsigned char byte = (unsigned char)text[i];
-        bool c1_control = i > 0 && (unsigned char)text[i - 1] == 0xC2 && byte < 0xA0;
-        out[1 + i] = byte < 0x20 || byte == 0x7F ? '?' : text[i];
-        if (c1_control)
-            out[i] = out[1 + i] = '?';
-    }
+    for (size_t i = 0; i < kept; i++)
+        out[1 + i] = text[i] ? text[i] : '?'; /* the end of a string here, but not in YAML */
     snprintf(out + 1 + kept, REPORT_QUOTE_SIZE - 1 - kept, "%s\"", kept < length ? ellipsis : "");
     return out;
 }

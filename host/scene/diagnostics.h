@@ -23,6 +23,7 @@ struct diagnostics {
         char *message;
     } errors[REPORT_MAX_ERRORS];
     bool no_memory; /* an allocation failed anywhere in the reading */
+    bool unable;    /* an error is the machine's, not the file's */
 };
 
 __attribute__((format(printf, 3, 4))) void report_error(struct diagnostics *report, struct scene_place place,
@@ -35,7 +36,7 @@ void report_print(struct diagnostics *report);
 /* Frees the messages without a word. */
 void report_discard(struct diagnostics *report);
 
-/* Writes text between double quotes, shortened where long, control characters replaced; returns out. */
+/* Writes text between double quotes, shortened where long; returns out. */
 const char *report_quote(const char *text, size_t length, char out[REPORT_QUOTE_SIZE]);
 
 #endif

@@ -89,7 +89,8 @@ static void look_inside_others(struct packed_scene *packed)
 static bool same_bodies(const struct packed_scene *a, const struct packed_scene *b)
 {
     bool same = a->hierarchy == b->hierarchy && a->sphere_count == b->sphere_count &&
-                a->surface_count == b->surface_count && a->plane_count == b->plane_count &&
+                a->giants == b->giants && a->surface_count == b->surface_count &&
+                a->plane_count == b->plane_count &&
                 memcmp(a->surfaces, b->surfaces, sizeof *a->surfaces * (size_t)a->surface_count) == 0 &&
                 memcmp(a->planes, b->planes, sizeof *a->planes * (size_t)a->plane_count) == 0;
     for (int i = 0; i < a->sphere_count && same; ++i)

@@ -2,17 +2,16 @@
 
 #include <endian.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/progress.h"
+#include "base/text_file.h"
 #include "scene/scene.h"
 
 enum { PIECE = 1 << 20 }; /* bytes that are read at a time, a multiple of the size of a row */
@@ -36,21 +35,11 @@ __attribute__((format(printf, 2, 3))) static enum status refuse(char message[NPY
     return STATUS_REFUSED;
 }
 
-/* Reads as much as there is, up to size bytes; less at the end of the file, -1 and errno on failure. */
-static ssize_t read_whole(int file, void *bytes, size_t size)
+static enum status refuse_errno(char message[NPY_MESSAGE])
 {
-    size_t got = 0;
-    while (got < size) {
-        ssize_t part = read(file, (char *)bytes + got, size - got);
-        if (part < 0 && errno == EINTR)
-            continue;
-        if (part < 0)
-            return -1;
-        if (part == 0)
-            break;
-        got += (size_t)part;
-    }
-    return (ssize_t)got;
+    const int error = errno;
+    refuse(message, "%s", input_file_problem(error));
+    return input_file_status(error);
 }
 
 static double decode(const unsigned char *bytes, const struct npy_header *header)
@@ -114,10 +103,10 @@ static enum status read_values(struct reading *reading)
     }
     while (left > 0 && status == STATUS_DONE) {
         size_t size = left < PIECE ? left : PIECE;
-        ssize_t got = read_whole(reading->file, piece, size);
+        ssize_t got = input_file_read(reading->file, piece, size);
         left -= size;
         if (got < 0)
-            status = refuse(reading->message, "%s", strerror(errno));
+            status = refuse_errno(reading->message);
         else if ((size_t)got < size)
             status = refuse(reading->message, "is truncated: it became shorter while it was read");
         else
@@ -146,9 +135,9 @@ static enum status check_size(const struct npy_header *header, size_t size, char
 static enum status read_header(struct reading *reading, size_t size, size_t most_rows)
 {
     char text[NPY_MOST_HEADER];
-    ssize_t got = read_whole(reading->file, text, sizeof text);
+    ssize_t got = input_file_read(reading->file, text, sizeof text);
     if (got < 0)
-        return refuse(reading->message, "%s", strerror(errno));
+        return refuse_errno(reading->message);
     enum status status = npy_header_parse(text, (size_t)got, &reading->header, reading->message);
     if (status != STATUS_DONE)
         return status;
@@ -157,30 +146,19 @@ static enum status read_header(struct reading *reading, size_t size, size_t most
         return refuse(reading->message, "has %zu rows; a scene may have %d spheres in all", header->rows,
                       SCENE_MAX_SPHERES);
     if (lseek(reading->file, (off_t)header->size, SEEK_SET) < 0)
-        return refuse(reading->message, "%s", strerror(errno));
+        return refuse_errno(reading->message);
     return check_size(header, size, reading->message);
-}
-
-static enum status open_regular(const char *path, int *file, size_t *size, char message[NPY_MESSAGE])
-{
-    struct stat about;
-    *file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
-    if (*file < 0 || fstat(*file, &about) != 0)
-        return refuse(message, "%s", strerror(errno));
-    if (!S_ISREG(about.st_mode))
-        return refuse(message, S_ISDIR(about.st_mode) ? "is a folder, not a file" : "is not a regular file");
-    *size = (size_t)about.st_size;
-    return STATUS_DONE;
 }
 
 enum status npy_read(const char *path, const struct npy_column columns[NPY_COLUMNS], size_t most_rows,
                      float (**rows)[NPY_COLUMNS], size_t *row_count, char message[NPY_MESSAGE])
 {
     struct reading reading = {.columns = columns, .message = message};
-    size_t size = 0;
-    enum status status = open_regular(path, &reading.file, &size, message);
+    off_t size = 0;
+    reading.file = input_file_open(path, true, &size);
+    enum status status = reading.file < 0 ? refuse_errno(message) : STATUS_DONE;
     if (status == STATUS_DONE)
-        status = read_header(&reading, size, most_rows);
+        status = read_header(&reading, (size_t)size, most_rows);
     if (status == STATUS_DONE) {
         reading.rows = malloc((reading.header.rows + 1) * sizeof *reading.rows);
         status = read_values(&reading);

@@ -17,7 +17,7 @@ struct npy_column {
  * byte order, rows or columns first, as numpy.save() writes it (format versions 1.0 to 3.0; NumPy Enhancement
  * Proposal 1). The values are rounded to float. On STATUS_DONE the caller frees *rows, which may have none;
  * otherwise it is NULL, and message says why without naming the file: STATUS_REFUSED for another file,
- * STATUS_UNABLE without memory. */
+ * STATUS_UNABLE where the machine could not read it. */
 enum status npy_read(const char *path, const struct npy_column columns[NPY_COLUMNS], size_t most_rows,
                      float (**rows)[NPY_COLUMNS], size_t *row_count, char message[NPY_MESSAGE]);
 

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/interrupt.h"
 #include "scene/body.h"
 #include "scene/giant.h"
 #include "scene/hollow.h"
@@ -364,7 +363,6 @@ enum status pack_scene(const struct scene *scene, const struct picture_settings 
 enum status pack_scene_beside(const struct packed_scene *other, const struct scene *scene,
                               const struct picture_settings *settings, struct packed_scene *packed)
 {
-    interrupt_ends_process(true);
     const struct looped looped = looped_choose(scene);
     *packed = (struct packed_scene){
         .width = (int)settings->width,
@@ -390,7 +388,6 @@ enum status pack_scene_beside(const struct packed_scene *other, const struct sce
         truncation_pack(packed, settings->has_max_error ? settings->max_error : -1);
     else
         pack_destroy(packed);
-    interrupt_ends_process(false);
     return status;
 }
 

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/interrupt.h"
 #include "base/text_file.h"
 #include "scene/scene.h"
 #include "scene/schema.h"
@@ -248,7 +247,9 @@ static void *read_list(struct reading *reading, const char *name, size_t item_si
     char *list = items > 0 ? calloc((size_t)items, item_size) : NULL;
     reading->report->no_memory |= items > 0 && !list;
     void *at = NULL;
-    for (*count = 0; list && *count < (size_t)items && !reading->report->no_memory; ++*count) {
+    for (*count = 0;
+         list && *count < (size_t)items && !reading->report->no_memory && !reading->report->unable;
+         ++*count) {
         const struct yaml_value item =
             yaml_read(reading->report, fy_node_sequence_iterate(value.node, &at), value.written);
         read_item(reading, &item, list + *count * item_size);
@@ -290,25 +291,32 @@ enum status scene_read_text(const char *path, const char *text, size_t length, s
         .light_samples = 32,
     };
     struct diagnostics report = {.path = path, .text = text, .length = length, .no_memory = !scene->path};
-    interrupt_ends_process(true);
     struct fy_document *document = yaml_load(&report);
     if (document) {
         const struct yaml_value root = yaml_read(&report, fy_document_root(document), NULL);
         read_root(&report, &root, scene);
-    } else if (report.count == 0) {
+    } else if (report.count == 0 && !report.no_memory) {
         report_error(&report, (struct scene_place){1, 1},
                      "the file is empty; a scene needs \"camera\" and \"image\"");
     }
     fy_document_destroy(document);
-    interrupt_ends_process(false);
 
-    enum status status = report.no_memory ? STATUS_UNABLE : report.count > 0 ? STATUS_REFUSED : STATUS_DONE;
+    enum status status = report.no_memory || report.unable ? STATUS_UNABLE
+                         : report.count > 0                ? STATUS_REFUSED
+                                                           : STATUS_DONE;
     report_print(&report);
-    if (status == STATUS_UNABLE)
+    if (report.no_memory)
         log_error("no memory to read the scene file %s", path);
     if (status != STATUS_DONE)
         scene_destroy(scene);
     return status;
+}
+
+enum status scene_refuse_file(const char *path, int error)
+{
+    report_line("%s: error: %s", path,
+                error == EFBIG ? "is larger than 16 MiB, not a scene file" : input_file_problem(error));
+    return input_file_status(error);
 }
 
 enum status scene_read(const char *path, struct scene *scene)
@@ -321,17 +329,7 @@ enum status scene_read(const char *path, struct scene *scene)
         free(text);
         return status;
     }
-    if (interrupt_requested())
-        return STATUS_INTERRUPTED;
-    if (errno == ENOMEM) {
-        log_error("no memory to read the scene file %s", path);
-        return STATUS_UNABLE;
-    }
-    fprintf(stderr, "%s: error: %s\n", path,
-            errno == EISDIR  ? "is a directory, not a scene file"
-            : errno == EFBIG ? "is larger than 16 MiB, not a scene file"
-                             : strerror(errno));
-    return STATUS_REFUSED;
+    return scene_refuse_file(path, errno);
 }
 
 void scene_destroy(struct scene *scene)

@@ -89,12 +89,15 @@ enum {
 /* Reads and checks the YAML scene file at path, and the files with spheres that it names. On STATUS_DONE the
  * caller owns *scene and frees it with scene_destroy(). Otherwise *scene is empty, and everything wrong that
  * could be found has been reported on standard error as "path:line:column: error: ..." with the line and a
- * caret: STATUS_REFUSED for a file that is not a scene, STATUS_UNABLE where there is no memory;
- * STATUS_INTERRUPTED where the file was being waited for. */
+ * caret: STATUS_REFUSED for a file that is not a scene, STATUS_UNABLE where the machine cannot
+ * read it. */
 enum status scene_read(const char *path, struct scene *scene);
 
-/* The same for a scene file's content in memory; path is for the messages, for scene->path, and for the
- * folder in which the files with spheres are looked for. */
+/* Reports why text_file_read() could not read a scene file; the status that comes of it. */
+enum status scene_refuse_file(const char *path, int error);
+
+/* The same as scene_read() for a scene file's content in memory; path is for the messages, for scene->path,
+ * and for the folder in which the files with spheres are looked for. */
 enum status scene_read_text(const char *path, const char *text, size_t length, struct scene *scene);
 
 /* The paths of the files with spheres that a scene file's content names, whether they and the rest are right

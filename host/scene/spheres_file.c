@@ -26,9 +26,9 @@ void spheres_file_read(struct mapping *mapping, const struct npy_column columns[
     enum status status =
         path ? npy_read(path, columns, most, &object->spheres.rows, &object->spheres.count, message)
              : STATUS_DONE;
-    if (status == STATUS_REFUSED || status == STATUS_UNABLE)
+    if (status != STATUS_DONE)
         schema_refuse(mapping, value.written, "%s: %s", name, message);
-    mapping->report->no_memory |= status == STATUS_UNABLE;
+    mapping->report->unable |= status == STATUS_UNABLE;
     free(name);
     free(path);
 }

@@ -1,6 +1,5 @@
 #include <stdio.h>
 
-#include "base/interrupt.h"
 #include "scene/body.h"
 #include "scene/overlap.h"
 
@@ -72,8 +71,6 @@ static void warn_of_lights(const struct scene *scene)
 
 void scene_warn(const struct scene *scene)
 {
-    interrupt_ends_process(true);
     warn_of_overlaps(scene);
     warn_of_lights(scene);
-    interrupt_ends_process(false);
 }

@@ -39,10 +39,10 @@ static enum status run(const char *path, const char *const *options, char names[
         arguments[count++] = *options++;
     arguments[count] = path;
     int error = posix_spawn(&process, "/bin/sh", NULL, NULL, (char *const *)arguments, environ);
+    interrupt_ends(error == 0 ? process : 0);
     while (error == 0 && waitpid(process, outcome, 0) < 0)
         error = errno == EINTR ? 0 : errno;
-    if (interrupt_requested())
-        return STATUS_INTERRUPTED;
+    interrupt_ends(0);
     if (error == 0 && (!WIFEXITED(*outcome) || WEXITSTATUS(*outcome) < CANNOT_RUN))
         return STATUS_DONE;
     log_error("cannot start glslangValidator (of the package glslang-tools): %s",

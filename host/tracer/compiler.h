@@ -18,7 +18,7 @@ struct compilation {
  * NULL behind the last, come behind the build's.
  *
  * STATUS_DONE, or STATUS_REFUSED where the shader does not compile, nothing being reported: the caller prints
- * the messages. Otherwise STATUS_UNABLE (reported) or STATUS_INTERRUPTED, and the compilation is empty. The
+ * the messages. Otherwise STATUS_UNABLE (reported), and the compilation is empty. The
  * caller destroys it. */
 enum status shader_compile(const char *path, const char *const *options, struct compilation *compilation);
 void compilation_destroy(struct compilation *compilation);

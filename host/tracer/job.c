@@ -3,7 +3,6 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "base/interrupt.h"
 #include "scene/digest.h"
 
 static enum status choose_window(const struct picture_settings *settings, struct window *window)
@@ -113,7 +112,7 @@ enum status job_write(const struct job *job, const struct image *image, const ch
         .strips = job->plan.strips,
     };
     enum status status = STATUS_DONE;
-    for (size_t i = 0; i < path_count && status == STATUS_DONE; ++i)
-        status = interrupt_requested() ? STATUS_INTERRUPTED : image_write(image, paths[i], &metadata);
+    for (size_t i = 0; i < path_count; ++i)
+        status = status_worse(status, image_write(image, paths[i], &metadata));
     return status;
 }

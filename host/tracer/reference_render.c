@@ -3,7 +3,6 @@
 #include <sys/param.h>
 
 #include "base/clock.h"
-#include "base/interrupt.h"
 #include "scene/truncation.h"
 #include "tracer/reference_scene.h"
 #include "tracer/render.h"
@@ -117,7 +116,7 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
         .charges = plan->bound_truncation ? values + 3 * (size_t)parts.most_pixels : NULL,
     };
     *times = (struct tracer_times){0};
-    while (!interrupt_requested() && step(&parts, plan)) {
+    while (step(&parts, plan)) {
         const uint64_t samples =
             (uint64_t)parts.part.width * (uint64_t)parts.part.height * (uint64_t)plan->scene->samples;
         double start = clock_ms();
@@ -134,7 +133,7 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
     rays->secondary += picture.rays.secondary;
     rays->shadow += picture.rays.shadow;
     free(values);
-    return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_DONE;
+    return STATUS_DONE;
 }
 
 enum status render_on_cpu(const struct render_plan *plan, struct rendering *rendering)
@@ -151,16 +150,16 @@ enum status render_on_cpu(const struct render_plan *plan, struct rendering *rend
     return render_repeatedly(render_once_on_cpu, &rendering->rays, &with_tree, rendering);
 }
 
-/* Explains the plan's window in bands, so that Ctrl-C is heard. */
-static enum status explain(const struct render_plan *plan, const struct packed_scene *scene,
-                           enum precision precision, struct reference_explanation *pixels)
+/* Explains the plan's window in bands, after each of which there is progress. */
+static void explain(const struct render_plan *plan, const struct packed_scene *scene,
+                    enum precision precision, struct reference_explanation *pixels)
 {
     const struct window *window = &plan->window;
     const int threads = reference_threads(plan->threads);
     const unsigned band_height = 4 * (unsigned)threads;
     struct progress progress;
     progress_start(&progress, "exact picture", (uint64_t)window->width * window->height, plan->quiet);
-    for (unsigned y = 0; y < window->height && !interrupt_requested(); y += band_height) {
+    for (unsigned y = 0; y < window->height; y += band_height) {
         struct reference_window band = band_of(plan, y, band_height);
         struct reference_explanation *first = pixels + (size_t)y * window->width;
         if (precision == PRECISION_DOUBLE)
@@ -170,7 +169,6 @@ static enum status explain(const struct render_plan *plan, const struct packed_s
         progress_advance(&progress, (uint64_t)band.width * (uint64_t)band.height);
     }
     progress_end(&progress);
-    return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_DONE;
 }
 
 enum status explain_on_cpu(const struct render_plan *plan, enum precision precision,
@@ -182,12 +180,9 @@ enum status explain_on_cpu(const struct render_plan *plan, enum precision precis
     if (status != STATUS_DONE)
         return status;
     *explanations = allocate_pixels(&plan->window, sizeof **explanations);
-    status = *explanations ? explain(plan, &scene, precision, *explanations) : STATUS_UNABLE;
-    if (status == STATUS_DONE)
-        return STATUS_DONE;
-    free(*explanations);
-    *explanations = NULL;
-    return status;
+    if (*explanations)
+        explain(plan, &scene, precision, *explanations);
+    return *explanations ? STATUS_DONE : STATUS_UNABLE;
 }
 
 enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatures)

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include "base/interrupt.h"
 #include "base/progress.h"
 #include "scene/hierarchy.h"
 #include "sphere_tree.h"
@@ -22,11 +21,9 @@ static struct sphere_tree *build_tree(const struct packed_scene *packed, unsigne
     struct progress progress;
     progress_start(&progress, "reference's tree", (uint64_t)(packed->sphere_count - packed->looped_spheres),
                    false);
-    interrupt_ends_process(true);
     struct sphere_tree *tree =
         sphere_tree_create(packed->spheres, packed->looped_spheres, packed->sphere_count,
                            reference_threads(threads), advance, &progress);
-    interrupt_ends_process(false);
     progress_end(&progress);
     return tree;
 }

@@ -35,8 +35,7 @@ struct rendering {
     struct reference_rays rays; /* all 0 unless counted */
 };
 
-/* On STATUS_DONE the caller frees rendering->image; otherwise there is none and the reason is reported,
- * except for STATUS_INTERRUPTED. */
+/* On STATUS_DONE the caller frees rendering->image; otherwise there is none and the reason is reported. */
 enum status render_on_device(struct vulkan_context *context, const struct render_plan *plan,
                              struct rendering *rendering);
 enum status render_on_cpu(const struct render_plan *plan, struct rendering *rendering);

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/text_file.h"
 #include "tracer/shader_rules.h"
 
 void shader_defines(struct shader_choice choice, const char *defines[static MOST_DEFINES])
@@ -22,11 +23,17 @@ void shader_defines(struct shader_choice choice, const char *defines[static MOST
 
 enum status shader_path(const char *folder, char path[static PATH_MAX])
 {
+    off_t size;
     errno = ENAMETOOLONG;
-    if (snprintf(path, PATH_MAX, "%s/whitted.comp", folder) < PATH_MAX && access(path, R_OK) == 0)
+    const bool fits = snprintf(path, PATH_MAX, "%s/whitted.comp", folder) < PATH_MAX;
+    const int file = fits ? input_file_open(path, true, &size) : -1;
+    if (file >= 0) {
+        close(file);
         return STATUS_DONE;
-    log_error("%s: %s; --shaders names the folder of whitted.comp", path, strerror(errno));
-    return STATUS_REFUSED;
+    }
+    const int error = errno;
+    log_error("%s: %s; --shaders names the folder of whitted.comp", path, input_file_problem(error));
+    return input_file_status(error);
 }
 
 /* Adds the problem to the messages. */

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/interrupt.h"
 #include "base/progress.h"
 #include "scene/hierarchy.h"
 
@@ -166,7 +165,6 @@ void sphere_records_write(const struct packed_scene *scene, uint32_t (*records)[
         .progress = &progress,
     };
     float largest = 0;
-    interrupt_ends_process(true);
     progress_start(&progress, "boxes for the device", 4 * other_count(scene), false);
     if (scene->hierarchy) {
         struct writing counting = {.nodes = scene->hierarchy->nodes, .next = stream};
@@ -188,5 +186,4 @@ void sphere_records_write(const struct packed_scene *scene, uint32_t (*records)[
     records[STREAM][1] = writing.next;
     memset(words, 0, HEAD_RECORDS * sizeof *words);
     progress_end(&progress);
-    interrupt_ends_process(false);
 }

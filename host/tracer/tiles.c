@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/interrupt.h"
 
 /* A dispatch should take about this long, so that Ctrl-C is heard, no watchdog bites and starting it costs
  * little. */
@@ -194,8 +193,6 @@ static enum status advance(struct course *course, struct dispatch_frame *frame)
     double device_ms = 0;
     enum status status = dispatch_frame_wait(tiles->dispatcher, frame, &device_ms, &unfinished);
     course->device_ms += device_ms;
-    if (status == STATUS_DONE && interrupt_requested())
-        status = STATUS_INTERRUPTED;
     if (status != STATUS_DONE)
         return status;
     tiles->turns = adapted(tiles->turns, device_ms, 1, size->most_turns);
@@ -240,7 +237,7 @@ enum status tiles_render(struct tiles *tiles, struct window window, const struct
     if (values->rays)
         *values->rays = (struct reference_rays){.primary = (uint64_t)window.width * window.height *
                                                            (uint64_t)tiles->dispatcher->info->scene->samples};
-    enum status status = interrupt_requested() ? STATUS_INTERRUPTED : require_frames(tiles, &window);
+    enum status status = require_frames(tiles, &window);
     const double start = clock_ms();
     if (status == STATUS_DONE)
         status = run(&course);

@@ -24,8 +24,8 @@ void tracer_destroy(struct tracer **tracer);
  * nothing. */
 bool tracer_update(struct tracer *tracer, const struct packed_scene *scene);
 
-/* Renders the window of the picture. Advances progress, whose unit is a sample of a pixel. STATUS_INTERRUPTED
- * after Ctrl-C. A failure (reported) leaves the pipeline as it was. */
+/* Renders the window of the picture. Advances progress, whose unit is a sample of a pixel. A failure
+ * (reported) leaves the pipeline as it was. */
 enum status tracer_render_values(struct tracer *tracer, struct window window,
                                  const struct tracer_values *values, struct progress *progress,
                                  struct tracer_times *times);

@@ -6,7 +6,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/interrupt.h"
 #include "base/number.h"
 
 static const char validation_layer[] = "VK_LAYER_KHRONOS_validation";
@@ -315,7 +314,7 @@ enum status vulkan_context_destroy(struct vulkan_context **pointer)
     if (!context)
         return STATUS_DONE;
     if (context->hung) /* all is left as it is, for the device */
-        return interrupt_requested() ? STATUS_INTERRUPTED : STATUS_UNABLE;
+        return STATUS_UNABLE;
     close_device(context);
     if (context->messenger) {
         PFN_vkDestroyDebugUtilsMessengerEXT destroy = FIND(context, vkDestroyDebugUtilsMessengerEXT);

@@ -5,7 +5,6 @@
 #include <time.h>
 
 #include "base/clock.h"
-#include "base/interrupt.h"
 #include "vulkan/buffer.h"
 
 enum { STARTED, ENDED, TIMESTAMPS };
@@ -307,14 +306,12 @@ enum status pass_frame_wait(struct pass_frame *frame, double *device_ms)
 {
     struct vulkan_context *context = frame->pass->context;
     VkResult result = vkGetFenceStatus(context->device, frame->fence);
-    while (result == VK_NOT_READY && !interrupt_requested()) {
+    while (result == VK_NOT_READY) {
         rest(clock_ms() - frame->submitted_ms);
         result = vkGetFenceStatus(context->device, frame->fence);
     }
     if (result != VK_SUCCESS && result != VK_ERROR_DEVICE_LOST)
         context->hung = true;
-    if (result == VK_NOT_READY)
-        return STATUS_INTERRUPTED;
     double waited_ms = clock_ms() - frame->submitted_ms;
     if (result != VK_SUCCESS) {
         vulkan_report(context, "vkGetFenceStatus", result);

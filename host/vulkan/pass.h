@@ -71,8 +71,7 @@ void pass_frame_destroy(struct pass_frame *frame);
 enum status pass_frame_submit(struct pass_frame *frame, const struct pass_dispatch *dispatch);
 
 /* Waits for the frame. *device_ms, perhaps NULL, is the time that the dispatch took by the device's
- * timestamps, or, where there are none, since the submission. STATUS_INTERRUPTED after Ctrl-C, also while the
- * device does not come back. Failures are reported. */
+ * timestamps, or, where there are none, since the submission. Failures are reported. */
 enum status pass_frame_wait(struct pass_frame *frame, double *device_ms);
 
 /* A dispatch with an input (binding 0 of set 0) and an output (binding 1), both storage buffers. */

@@ -9,7 +9,6 @@
 #include <GLFW/glfw3.h>
 
 #include "base/clock.h"
-#include "base/interrupt.h"
 
 static const double arrow_step = 1.0 / 32; /* of one key press, in picture heights */
 
@@ -245,8 +244,7 @@ enum status display_wait(struct display *display, double seconds, struct display
             status = display_paint(display);
         double left = (end_ms - clock_ms()) / 1e3;
         display->input.closed = glfwWindowShouldClose(display->window);
-        if (status != STATUS_DONE || left <= 0 || display->has_input || display->input.closed ||
-            interrupt_requested())
+        if (status != STATUS_DONE || left <= 0 || display->has_input || display->input.closed)
             break;
         glfwWaitEventsTimeout(fmin(left, longest_wait));
     }

@@ -186,8 +186,10 @@ bool inputs_follow_spheres(struct inputs *inputs, char **sphere_files)
 char *inputs_read_scene(const struct inputs *inputs, size_t *length)
 {
     char *text = text_file_read(inputs->scene_path, true, SCENE_MAX_FILE_SIZE, length);
+    const int error = errno;
     if (!text)
-        fprintf(stderr, "%s: error: %s\n", inputs->scene_path, strerror(errno));
+        scene_refuse_file(inputs->scene_path, error);
+    errno = error;
     return text;
 }
 
@@ -200,8 +202,8 @@ enum status inputs_create(const char *scene_path, const char *shader_folder, str
     signal(SIGIO, SIG_IGN); /* comes where somebody opens a file for writing while we hold a lease */
     size_t scene_length;
     char *scene = inputs_read_scene(inputs, &scene_length);
-    enum status status =
-        scene ? shader_path(shader_folder ? shader_folder : found, inputs->shader_path) : STATUS_REFUSED;
+    enum status status = scene ? shader_path(shader_folder ? shader_folder : found, inputs->shader_path)
+                               : input_file_status(errno);
     free(scene);
     return status;
 }

@@ -36,7 +36,7 @@ void inputs_destroy(struct inputs *inputs);
  * taken then, and *saved_ms is when they were saved, by clock_ms(). Call it every 20 ms or so. */
 bool inputs_take(struct inputs *inputs, double *saved_ms);
 
-/* The scene file's text, to be freed by the caller; NULL (reported) where it cannot be read. */
+/* The scene file's text, to be freed by the caller; NULL (reported) and errno where it cannot be read. */
 char *inputs_read_scene(const struct inputs *inputs, size_t *length);
 
 /* Whether the files with spheres that the scene names are those that are followed. If not, they are from now

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/interrupt.h"
 #include "scene/scene.h"
 
 /* Says that the picture on show is not what the files say. */
@@ -209,7 +208,7 @@ void session_render(struct session *session, double saved_ms)
     const char *what = "scene refused", *details = "see the terminal";
     double compile_ms = 0, pipeline_ms = 0;
     struct picture *picture = prepare(session, 1);
-    enum status status = interrupt_requested() ? STATUS_INTERRUPTED : STATUS_REFUSED;
+    enum status status = STATUS_REFUSED;
     if (picture) {
         what = "compile failed";
         status = compile(session, picture, &compile_ms);
@@ -231,7 +230,7 @@ void session_render(struct session *session, double saved_ms)
         tell_success(picture, pipeline_ms, saved_ms);
         picture->band = options->check || options->window ? 1 : 0;
         picture->since_ms = clock_ms();
-    } else if (status == STATUS_REFUSED || status == STATUS_UNABLE) {
+    } else if (status != STATUS_DIFFERS) {
         tell_failure(session, what, details, compile_ms);
     }
     release(session, picture);

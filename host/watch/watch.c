@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "base/interrupt.h"
 #include "check/compare.h"
 #include "check/heatmap.h"
 #include "vulkan/probe.h"
@@ -131,7 +130,7 @@ static enum status follow(struct session *session)
     bool closed = false;
     double saved_ms;
     enum status status = STATUS_DONE;
-    while (status == STATUS_DONE && !closed && session->context && !interrupt_requested()) {
+    while (status == STATUS_DONE && !closed && session->context) {
         if (inputs_take(&session->inputs, &saved_ms))
             session_take(session, saved_ms);
         if (!session->context)

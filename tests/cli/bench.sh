@@ -115,22 +115,4 @@ options() {
     only_files
 }
 
-set -m # or else the shell has background jobs ignore SIGINT
-interrupted() {
-    "$VKWHITTED" bench "$figure" --size 4000x4000 --json a.json --csv a.csv >out 2>err &
-    pid=$!
-    sleep 2
-    kill -0 $pid 2>/dev/null || fail 'it has ended by itself'
-    kill -INT $pid
-    for ((tenths = 0; tenths < 600; ++tenths)); do
-        kill -0 $pid 2>/dev/null || break
-        sleep 0.1
-    done
-    ! kill -KILL $pid 2>/dev/null || fail 'it has not heard SIGINT'
-    wait $pid
-    status=$?
-    [ $status -eq 130 ] || fail "exit status $status after SIGINT"
-    only_files
-}
-
 "$1"

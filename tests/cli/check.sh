@@ -103,13 +103,12 @@ json_file() {
 # A formula that is wrong by 1e-4 is found out behind a lens, although deep in the ray tree of every pixel some decision is
 # close.
 judged_behind_a_lens() {
+    lens=$SOURCE_DIR/scenes/hard/lens.yaml
+    sed 's/max_bounces: 10/max_bounces: 4/' "$lens" >four_bounces.yaml
     for formula in term k_r_by_1e-4 normal_by_1e-4; do
         [ -d broken/$formula ] || break_shader $formula
-        for bounces in 4 10; do
-            expect 1 "$VKWHITTED" check --shaders broken/$formula --against double --size 64x64 --max-bounces $bounces \
-                "$SOURCE_DIR/scenes/hard/lens.yaml"
-            said ' [0-9]+ unexplained @ \([0-9]+, [0-9]+\)  UNEXPLAINED$' out
-        done
+        expect 1 "$VKWHITTED" check --shaders broken/$formula --against double --size 64x64 "$lens" four_bounces.yaml
+        [ "$(grep -cE ' [0-9]+ unexplained @ \([0-9]+, [0-9]+\)  UNEXPLAINED$' out)" -eq 2 ] || fail "$formula"
     done
 }
 

@@ -71,7 +71,7 @@ refusals() {
     said '2.exr: is of another scene than 1.exr'
     head -c 1000 2.exr >cut.exr
     refused 2 'cut.exr: cannot read EXR' join 1.exr cut.exr -o a.pfm
-    refused 3 'none.exr: cannot read' join none.exr -o a.pfm
+    refused 2 'none.exr: cannot read' join none.exr -o a.pfm
     [ ! -e a.pfm ] || fail 'there is a picture'
 }
 

@@ -48,8 +48,8 @@ reflectance = intBitsToFloat(floatBitsToInt(reflectance) + 1);
 #endif
 return Refraction(total, reflectance,'
     [total]='dielectric.glsl|total = !(cos_out_squared > real(0))|total = !(cos_out_squared > real(0.9))'
-    [k_r_by_1e-4]='dielectric.glsl|return Refraction(total, reflectance,|return Refraction(total, reflectance * real(1.0001),'
-    [normal_by_1e-4]='intersect.glsl|facing_normal = hit.from_inside ? -normal : normal|facing_normal = (hit.from_inside ? -normal : normal) * real(1.0001)'
+    [k_r_by_1e-4]='dielectric.glsl|exact real reflectance = (real(0.5) * (r_s * r_s))|exact real reflectance = (real(0.50005) * (r_s * r_s))'
+    [normal_by_1e-4]='intersect.glsl|exact real3 normal = sphere ? sphere_normal : shape;|exact real3 normal = (sphere ? sphere_normal : shape) * real(1.0001);'
     [shadow]='intersect.glsl| && approach.along < distance|'
     [normal]='intersect.glsl|facing_normal = hit.from_inside ? -normal : normal|facing_normal = intBitsToFloat(floatBitsToInt(hit.from_inside ? -normal : normal) + 1)'
 )

@@ -1,13 +1,13 @@
 . "$(dirname "$0")/lib.sh"
 
-# What README.md shows is run, in a folder that looks like the source: the commands of ```sh with pictures of 12x8
+# What README.md shows is run, in a folder that looks like the source: the commands of ```sh with pictures of 24x16
 # pixels, those of ```console as they are, and their output must be what stands there.
 
 readme=$SOURCE_DIR/README.md
 mkdir bin build
 cp -r "$SOURCE_DIR/shaders" .
 cp -r "$SOURCE_DIR/scenes" small
-sed -i 's/^image: .*/image: { width: 12, height: 8 }/' small/*.yaml small/hard/*.yaml
+sed -i 's/^image: .*/image: { width: 24, height: 16 }/' small/*.yaml small/hard/*.yaml
 cat >bin/vkwhitted <<'END'
 #!/bin/bash
 # With small scenes in ./scenes names mean those. Of bench, which takes half a minute, the options are read.
@@ -20,7 +20,13 @@ done
 exec "$VKWHITTED" "${words[@]}"
 END
 # What changes the machine, or takes other tests their time, is done only in name.
-for name in bootstrap cpack sudo apt-get; do printf '#!/bin/sh\nexit 0\n' >bin/$name; done
+for name in bootstrap cpack sudo apt-get sbatch; do printf '#!/bin/sh\nexit 0\n' >bin/$name; done
+cat >bin/parallel <<'END'
+#!/bin/bash -e
+# What GNU parallel has hosts do, with as many rows as tiles.
+[ "${*: -18:2}" = '{}.exr :::' ]
+for i in "${@: -16}"; do vkwhitted render -q scenes/figure_4.yaml --size 12x16 --tile $i/16 -o $i.exr; done
+END
 chmod +x bin/*
 ln -s "$PWD/bin/vkwhitted" build/vkwhitted
 ln -s bin/bootstrap .

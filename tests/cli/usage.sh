@@ -74,7 +74,7 @@ crop_outside() {
 
 option_of_another_command() {
     refused 2 'check takes no option -o' check -o a.png "$figure"
-    refused 2 'check takes no option --transfer' check --transfer srgb "$figure"
+    refused 2 'pixel takes no option --transfer' pixel --transfer srgb "$figure"
     refused 2 'check takes no option --stats' check --stats a.json "$figure"
     refused 2 'render takes no option --tolerance' render --tolerance 1 "$figure"
     refused 2 'watch takes no option --backend' watch --backend cpu -o a.png "$figure"
@@ -159,9 +159,9 @@ completion() {
     . "$BINARY_DIR/completions/bash/vkwhitted"
     complete -p vkwhitted >out || fail 'not in use'
     mkdir folder
-    touch a.yaml b.json c.png
+    touch a.yaml b.json c.png d.exr
     completes 'vkwhitted p' pixel
-    completes 'vkwhitted ' '--help --version bench check devices pixel render watch'
+    completes 'vkwhitted ' '--help --version bench check devices join pixel render watch'
     completes 'vkwhitted check --ag' --against
     completes 'vkwhitted check --against ' 'double quad'
     completes 'vkwhitted render --precision ' 'double float quad'
@@ -174,10 +174,11 @@ completion() {
     completes 'vkwhitted render --size ' ''
     completes 'vkwhitted render --fast ' 'a.yaml folder'
     completes 'vkwhitted check a.yaml ' 'a.yaml folder'
+    completes 'vkwhitted join ' 'd.exr folder'
     completes 'vkwhitted watch --shaders ' folder
     completes 'vkwhitted bench --compare ' 'b.json folder'
     completes 'vkwhitted check --heatmap ' 'c.png folder'
-    completes 'vkwhitted render -o ' 'a.yaml b.json c.png folder out'
+    completes 'vkwhitted render -o ' 'a.yaml b.json c.png d.exr folder out'
     if command -v zsh >/dev/null; then
         expect 0 zsh -n "$BINARY_DIR/completions/zsh/_vkwhitted"
     fi

@@ -41,7 +41,7 @@ finish() {
     kill -INT $watcher
     wait $watcher
     status=$?
-    [ $status -eq 0 ] || fail "exit status $status after Ctrl-C"
+    [ $status -eq 130 ] || fail "exit status $status after Ctrl-C"
 }
 
 # The picture is that of the files as they are.

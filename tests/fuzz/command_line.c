@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/output_file.h"
 #include "cli/options.h"
 #include "fuzz.h"
 
@@ -27,6 +28,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     if (status != STATUS_DONE && status != STATUS_REFUSED && status != STATUS_UNABLE)
         abort();
+    output_file_release();
     options_destroy(&options);
     free(text);
     return 0;

@@ -161,7 +161,7 @@ static void draw_ball(struct sketch *sketch, struct sketch_body *body)
 {
     struct source *source = &sketch->source;
     body->is_ball = true;
-    body->radius = sketch->scale * CHOOSE(source, 1, 1, 0.5, 2, 1.5, 0.3, 0.01, 10);
+    body->radius = sketch->scale * CHOOSE(source, 1, 1, 0.5, 2, 1.5, 0.3, 0.01, 10, 1e3, 1e6);
     if (choose(source, 6) == 0)
         body->radius *= power_of_ten(source, -16, 4);
     body->place = place(sketch);

@@ -1,0 +1,137 @@
+#include "base/escape.h"
+
+#include <errno.h>
+#include <stdint.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MOST_CHARACTER = 4 }; /* bytes of UTF-8 */
+
+/* Bytes of a character with this first one; 0: there is none. */
+static size_t character_size(char first)
+{
+    const unsigned char lead = (unsigned char)first;
+    return lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
+}
+
+/* The code point of a character of so many bytes; false: it is not UTF-8. */
+static bool decode(const char *text, size_t size, uint32_t *code)
+{
+    static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+    const unsigned char lead = (unsigned char)text[0];
+    *code = size == 1 ? lead : lead & (0xFFU >> (size + 1));
+    for (size_t i = 1; i < size; ++i) {
+        if (((unsigned char)text[i] & 0xC0) != 0x80)
+            return false;
+        *code = *code << 6 | ((unsigned char)text[i] & 0x3FU);
+    }
+    return *code >= least[size] && *code <= 0x10FFFF && (*code < 0xD800 || *code > 0xDFFF);
+}
+
+/* C0, DEL and C1; the marks of Unicode's bidirectional algorithm (UAX #9); separators of lines. */
+static bool is_control(uint32_t code)
+{
+    return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x61C || code == 0x200E ||
+           code == 0x200F || (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+}
+
+size_t escape_character(const char *text, size_t length, char shown[ESCAPED_SIZE])
+{
+    const size_t size = character_size(text[0]);
+    uint32_t code;
+    if (size == 0 || size > length || !decode(text, size, &code)) {
+        snprintf(shown, ESCAPED_SIZE, "\\x%02x", (unsigned char)text[0]);
+        return 1;
+    }
+    if (is_control(code)) {
+        snprintf(shown, ESCAPED_SIZE, code < 0x80 ? "\\x%02x" : "\\u%04x", code);
+    } else {
+        memcpy(shown, text, size);
+        shown[size] = '\0';
+    }
+    return size;
+}
+
+void escape_line(FILE *stream, const char *text)
+{
+    char shown[ESCAPED_SIZE];
+    size_t length = strlen(text);
+    for (size_t taken; length > 0; text += taken, length -= taken) {
+        taken = escape_character(text, length, shown);
+        fputs(shown, stream);
+    }
+    fputc('\n', stream);
+}
+
+/* A standard stream behind one that escapes. */
+struct escaped_stream {
+    int descriptor, error;
+    char begun[MOST_CHARACTER]; /* a character whose other bytes have not come yet */
+    size_t begun_size;
+};
+
+static bool write_all(struct escaped_stream *stream, const char *bytes, size_t size)
+{
+    while (size > 0 && stream->error == 0) {
+        const ssize_t part = write(stream->descriptor, bytes, size);
+        if (part < 0 && errno != EINTR)
+            stream->error = errno;
+        bytes += part > 0 ? part : 0;
+        size -= part > 0 ? (size_t)part : 0;
+    }
+    return stream->error == 0;
+}
+
+static ssize_t write_escaped(void *cookie, const char *bytes, size_t size)
+{
+    struct escaped_stream *stream = cookie;
+    char text[1024], out[4096];
+    for (size_t at = 0; at < size;) {
+        size_t length = stream->begun_size, used = 0, put = 0;
+        memcpy(text, stream->begun, length);
+        const size_t part = size - at < sizeof text / 4 ? size - at : sizeof text / 4;
+        memcpy(text + length, bytes + at, part);
+        at += part;
+        length += part;
+        while (used < length) {
+            const char *next = text + used;
+            const size_t left = length - used;
+            if (left < character_size(*next) && left < MOST_CHARACTER)
+                break;
+            if (*next == '\n' || *next == '\t') {
+                out[put++] = *next;
+                ++used;
+            } else {
+                used += escape_character(next, left, out + put);
+                put += strlen(out + put);
+            }
+        }
+        stream->begun_size = length - used;
+        memcpy(stream->begun, text + used, stream->begun_size);
+        if (!write_all(stream, out, put))
+            return 0;
+    }
+    return (ssize_t)size;
+}
+
+static struct escaped_stream streams[2];
+
+void escape_streams(void)
+{
+    FILE **const standard[] = {&stdout, &stderr};
+    for (int i = 0; i < 2; ++i) {
+        streams[i].descriptor = STDOUT_FILENO + i;
+        FILE *escaped = fopencookie(&streams[i], "w", (cookie_io_functions_t){.write = write_escaped});
+        if (!escaped)
+            continue;
+        setvbuf(escaped, NULL, _IOLBF, BUFSIZ);
+        *standard[i] = escaped;
+    }
+}
+
+bool escape_close_output(void)
+{
+    const bool closed = fclose(stdout) == 0;
+    errno = streams[0].error ? streams[0].error : errno;
+    return closed && streams[0].error == 0;
+}

@@ -1,0 +1,156 @@
+#include "image/read.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "base/text_file.h"
+#include "image/read_formats.h"
+
+static const size_t largest_file = (size_t)1 << 32;
+
+enum status read_image_create(const struct read_input *input, unsigned long width, unsigned long height,
+                              struct read_image *picture)
+{
+    const struct image_wanted *wanted = input->wanted;
+    if (width != wanted->window.width || height != wanted->window.height) {
+        log_error("%s: the picture must have %ux%u pixels, has %lux%lu", input->path, wanted->window.width,
+                  wanted->window.height, width, height);
+        return STATUS_REFUSED;
+    }
+    picture->rgb = calloc((size_t)width * height * 3, sizeof *picture->rgb);
+    if (!picture->rgb) {
+        log_error("%s: no memory for %lux%lu pixels", input->path, width, height);
+        return STATUS_UNABLE;
+    }
+    picture->width = wanted->window.width;
+    picture->height = wanted->window.height;
+    return STATUS_DONE;
+}
+
+void read_image_destroy(struct read_image *picture)
+{
+    free(picture->rgb);
+    *picture = (struct read_image){0};
+}
+
+static bool is_blank(uint8_t byte)
+{
+    return byte == ' ' || byte == '\t' || byte == '\n' || byte == '\r';
+}
+
+/* The next word of a PFM file's header, from *place on, which moves to the byte behind the blank that ends
+ * it. Its length is 0 where there is none. */
+static const char *next_word(const struct read_input *input, size_t *place, size_t *length)
+{
+    while (*place < input->size && is_blank(input->bytes[*place]))
+        ++*place;
+    const size_t start = *place;
+    while (*place < input->size && !is_blank(input->bytes[*place]))
+        ++*place;
+    *length = *place < input->size ? *place - start : 0;
+    ++*place;
+    return (const char *)input->bytes + start;
+}
+
+struct pfm_header {
+    unsigned long width, height;
+    double scale;    /* of all values */
+    size_t channels; /* 3 or 1 */
+    size_t start;    /* of the values */
+};
+
+static bool read_pfm_header(const struct read_input *input, struct pfm_header *header)
+{
+    size_t place = 0, length;
+    const char *word = next_word(input, &place, &length);
+    if (length != 2 || word[0] != 'P' || (word[1] != 'F' && word[1] != 'f'))
+        return false;
+    header->channels = word[1] == 'F' ? 3 : 1;
+    unsigned long *const sizes[] = {&header->width, &header->height};
+    for (int i = 0; i < 2; ++i) {
+        word = next_word(input, &place, &length);
+        if (!parse_unsigned(word, length, UINT32_MAX, sizes[i]))
+            return false;
+    }
+    word = next_word(input, &place, &length);
+    header->start = place;
+    return parse_double(word, length, &header->scale) && header->scale != 0;
+}
+
+static float float_of(const uint8_t *bytes, bool big_endian)
+{
+    uint32_t bits = 0;
+    float value;
+    for (int i = 0; i < 4; ++i)
+        bits |= (uint32_t)bytes[i] << 8 * (big_endian ? 3 - i : i);
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Paul Debevec's PFM, as file.c writes it; a scale other than 1 or -1 multiplies the values. */
+enum status image_read_pfm(const struct read_input *input, struct read_image *picture)
+{
+    struct pfm_header header;
+    if (!read_pfm_header(input, &header)) {
+        log_error("%s: is no PFM: expected \"PF\" or \"Pf\", width, height and scale in its first lines",
+                  input->path);
+        return STATUS_REFUSED;
+    }
+    enum status status = read_image_create(input, header.width, header.height, picture);
+    if (status != STATUS_DONE)
+        return status;
+    const size_t row = header.width * header.channels, values = row * header.height;
+    const size_t found = input->size > header.start ? input->size - header.start : 0;
+    if (found != values * sizeof(float)) {
+        log_error("%s: expected %zu bytes behind its header, has %zu", input->path, values * sizeof(float),
+                  found);
+        return STATUS_REFUSED;
+    }
+    const float factor = (float)fabs(header.scale);
+    for (size_t i = 0; i < header.width * header.height * 3; ++i) {
+        const size_t y = header.height - 1 - i / (3 * header.width), in_row = i % (3 * header.width);
+        const size_t place = y * row + (header.channels == 3 ? in_row : in_row / 3);
+        const float value = factor * float_of(input->bytes + header.start + 4 * place, header.scale > 0);
+        picture->rgb[i] = (struct value_range){value, value};
+    }
+    return STATUS_DONE;
+}
+
+enum status image_read_bytes(const char *path, const void *bytes, size_t size,
+                             const struct image_wanted *wanted, struct read_image *picture)
+{
+    static enum status (*const readers[])(const struct read_input *input, struct read_image *picture) = {
+        [IMAGE_FORMAT_PNG] = image_read_png,
+        [IMAGE_FORMAT_EXR] = image_read_exr,
+        [IMAGE_FORMAT_PFM] = image_read_pfm,
+    };
+    *picture = (struct read_image){0};
+    const enum image_format format = image_format_of(path);
+    if (format == IMAGE_FORMAT_UNKNOWN)
+        return STATUS_REFUSED;
+    const struct read_input input = {path, bytes, size, wanted};
+    const enum status status = readers[format](&input, picture);
+    if (status != STATUS_DONE)
+        read_image_destroy(picture);
+    return status;
+}
+
+enum status image_read(const char *path, const struct image_wanted *wanted, struct read_image *picture)
+{
+    size_t size;
+    *picture = (struct read_image){0};
+    if (image_format_of(path) == IMAGE_FORMAT_UNKNOWN)
+        return STATUS_REFUSED;
+    char *bytes = text_file_read(path, false, largest_file, &size);
+    if (!bytes) {
+        const int error = errno;
+        log_error("%s: cannot read: %s", path, input_file_problem(error));
+        return input_file_status(error);
+    }
+    enum status status = image_read_bytes(path, bytes, size, wanted, picture);
+    free(bytes);
+    return status;
+}
