@@ -17,6 +17,7 @@ struct sample {
     uint32_t seed, index;
     struct vec3 radiance, rounding; /* the rounded sum, and what rounding took from it */
     real charge;                    /* the weight of rays that were not traced, see ROUND_UP */
+    real room;                      /* what is left of the allowance for them */
     real waiting;                   /* the roots of the weights of rays that are put off, summed */
     struct tally tally;
 };
@@ -37,9 +38,21 @@ static void trace_secondary(struct sample *sample, const struct path *path)
     trace(sample, path);
 }
 
+static real charged(const struct sample *sample, real weight)
+{
+    return (sample->charge + weight) * (real)ROUND_UP;
+}
+
+/* For a ray that is not traced. Where max_bounces cuts off too much, the room is kept for the rays that are
+ * left out by choice. */
 static void charge(struct sample *sample, real weight)
 {
-    sample->charge = (sample->charge + weight) * (real)ROUND_UP;
+    sample->charge = charged(sample, weight);
+    if (!(weight <= sample->room))
+        return;
+    sample->room = (sample->room - weight) * (real)ROUND_DOWN;
+    if (sample->room < (real)sample->scene->view.truncation.ALLOWANCE * (real)LEAST_ROOM)
+        sample->room = 0;
 }
 
 static real root_of(real weight)
@@ -48,19 +61,14 @@ static real root_of(real weight)
 }
 
 /* Whether a ray of this weight may be left out, where the roots of all rays still to be traced, this one
- * included, come to `open`; see NUMERICS.md. Where max_bounces alone has cut off too much, rays are left out
- * as at the beginning. */
+ * included, come to `open`; see NUMERICS.md. */
 static bool may_be_left_out(const struct sample *sample, real weight, real open)
 {
     const layout_vec4 *truncation = &sample->scene->view.truncation;
-    real allowance = (real)truncation->ALLOWANCE, room = allowance;
-    if (allowance < 0)
+    real allowance = (real)truncation->ALLOWANCE, room = sample->room;
+    bool too_late = sample->charge > allowance; /* to keep the order */
+    if (allowance < 0 || !(weight <= room) || !(too_late || charged(sample, weight) <= allowance))
         return false;
-    if (sample->charge <= allowance) {
-        if ((sample->charge + weight) * (real)ROUND_UP > allowance)
-            return false;
-        room = allowance - sample->charge;
-    }
     return root_of(weight) * open * open <= room * (room * (real)truncation->SPENDING);
 }
 
@@ -186,6 +194,7 @@ static struct pixel trace_pixel(const struct packed_scene *scene, int x, int y)
             .scene = scene,
             .seed = pixel_seed(x, y),
             .index = k,
+            .room = (real)scene->view.truncation.ALLOWANCE,
             .tally = pixel.tally,
         };
         struct path path = {.ray = camera_ray(scene, x, y, k), .weight = 1};

@@ -10,12 +10,11 @@ struct Path {
     uint branch; // of the binary ray tree that glass makes: 0 the root; of i, 2 i + 1 refracted, 2 i + 2 reflected
 };
 
-// The reflections still to be traced: at most one for every bounce count. They lie in registers: chosen by selects, they
-// cost lavapipe less than memory, which it would gather and scatter at every turn. Of a deep stack that is the upper
-// part; where it becomes full or empty, the invocation waits for the next dispatch, which finds half of it in use.
-const int MOST_REGISTERS = 8;
-const int STACK_ROOM = !GLASS || MAX_BOUNCES == 0 ? 1 : MAX_BOUNCES < MOST_REGISTERS ? MAX_BOUNCES : MOST_REGISTERS;
-const bool STACK_IS_DEEP = GLASS && MAX_BOUNCES > STACK_ROOM; // then the pipeline is RESUMABLE
+// The reflections still to be traced: at most one for every bounce count. A small stack lies in registers: chosen by
+// selects, they cost lavapipe less than memory, which it gathers and scatters at every turn. (To keep the upper part of
+// a deep one in registers and to leave the loop where they are full was 3 times slower with thousands of rays a pixel.)
+const bool STACK_IN_REGISTERS = MAX_BOUNCES <= 8;
+const int STACK_ROOM = GLASS && MAX_BOUNCES > 0 && STACK_IN_REGISTERS ? MAX_BOUNCES : 1;
 real4 stack_origin[STACK_ROOM]; // and weight
 real3 stack_direction[STACK_ROOM];
 int stack_state[STACK_ROOM], stack_bounces[STACK_ROOM];
@@ -49,27 +48,6 @@ void set_path(inout Path path, real4 origin_weight, real3 direction, int state, 
     path.branch = branch;
 }
 
-void push(Path path, inout int pending)
-{
-    [[unroll]] for (int i = 0; i < STACK_ROOM; ++i)
-        if (i == pending) {
-            stack_origin[i] = real4(path.ray.origin, path.weight);
-            stack_direction[i] = path.ray.direction;
-            stack_state[i] = path_state(path);
-            stack_bounces[i] = path.bounces;
-            stack_branch[i] = path.branch;
-        }
-    ++pending;
-}
-
-void pop(inout Path path, inout int pending)
-{
-    --pending;
-    [[unroll]] for (int i = 0; i < STACK_ROOM; ++i)
-        if (i == pending)
-            set_path(path, stack_origin[i], stack_direction[i], stack_state[i], stack_bounces[i], stack_branch[i]);
-}
-
 // A path's place in memory is its number on the stack, from the bottom.
 void save_path(int number, Path path)
 {
@@ -90,4 +68,29 @@ void load_path(int number, inout Path path)
     int bounces = HIERARCHY ? int(saved_words[saved_place(WORK_WORDS + 3 * number + 1)]) : 0;
     uint branch = LIGHTS_TELL_BRANCHES ? saved_words[saved_place(WORK_WORDS + 3 * number + 2)] : 0u;
     set_path(path, origin_weight, direction, state, bounces, branch);
+}
+
+void push(Path path, inout int pending)
+{
+    if (!STACK_IN_REGISTERS)
+        save_path(pending, path);
+    [[unroll]] for (int i = 0; i < STACK_ROOM; ++i)
+        if (STACK_IN_REGISTERS && i == pending) {
+            stack_origin[i] = real4(path.ray.origin, path.weight);
+            stack_direction[i] = path.ray.direction;
+            stack_state[i] = path_state(path);
+            stack_bounces[i] = path.bounces;
+            stack_branch[i] = path.branch;
+        }
+    ++pending;
+}
+
+void pop(inout Path path, inout int pending)
+{
+    --pending;
+    if (!STACK_IN_REGISTERS)
+        load_path(pending, path);
+    [[unroll]] for (int i = 0; i < STACK_ROOM; ++i)
+        if (STACK_IN_REGISTERS && i == pending)
+            set_path(path, stack_origin[i], stack_direction[i], stack_state[i], stack_bounces[i], stack_branch[i]);
 }

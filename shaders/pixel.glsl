@@ -11,6 +11,7 @@ struct Pixel {
     real3 radiance; // sum over the samples
     real3 leaves, rounding; // of the sample: the rounded sum of what its rays see, and what rounding took from it
     real charge; // of the sample: the weight of rays that are not traced, see ROUND_UP
+    real room; // of the sample: what is left of the allowance
     real waiting; // roots of the weights on the stack, summed
     real charges; // of the samples before
     uint seed;
@@ -23,6 +24,18 @@ real charge(real charges, real weight)
 {
     exact real sum = (charges + weight) * real(ROUND_UP);
     return sum;
+}
+
+// For a ray that is not traced. Where MAX_BOUNCES cuts off more than the allowance, the room is for the others.
+void add_charge(inout Pixel pixel, real weight)
+{
+    real allowance = real(hoisted_view.truncation.ALLOWANCE);
+    exact real room = (pixel.room - weight) * real(ROUND_DOWN);
+    exact real least = allowance * real(LEAST_ROOM);
+    if (PRUNES && weight <= pixel.room)
+        pixel.room = room >= least ? room : real(0);
+    if (CHARGED)
+        pixel.charge = charge(pixel.charge, weight);
 }
 
 // What stands for a ray's share in what will be left out; see NUMERICS.md.
@@ -39,15 +52,13 @@ real root_of(real weight)
 bool is_traced(inout Pixel pixel, real weight, real root, real open)
 {
     real allowance = real(hoisted_view.truncation.ALLOWANCE);
-    bool exceeded = pixel.charge > allowance;
     real charged = charge(pixel.charge, weight);
-    exact real room = exceeded ? allowance : allowance - pixel.charge;
+    bool fits = weight <= pixel.room && (charged <= allowance || pixel.charge > allowance);
     exact real spent = root * open * open;
-    exact real to_spend = room * (room * real(hoisted_view.truncation.SPENDING));
-    bool left_out = PRUNES && (exceeded || charged <= allowance) && spent <= to_spend;
-    bool traced = weight > real(SMALLEST_WEIGHT) && !left_out;
-    if (CHARGED)
-        pixel.charge = traced ? pixel.charge : charged;
+    exact real to_spend = pixel.room * (pixel.room * real(hoisted_view.truncation.SPENDING));
+    bool traced = weight > real(SMALLEST_WEIGHT) && !(PRUNES && fits && spent <= to_spend);
+    if (!traced)
+        add_charge(pixel, weight);
     return traced;
 }
 
@@ -72,6 +83,7 @@ void begin_sample(inout Pixel pixel)
     pixel.leaves = real3(0);
     pixel.rounding = real3(0);
     pixel.charge = real(0);
+    pixel.room = real(hoisted_view.truncation.ALLOWANCE);
     pixel.waiting = real(0);
 }
 

@@ -7,19 +7,13 @@ Work no_work()
 {
     const real3 zero = real3(0);
     Path path = Path(Ray(zero, zero, -1, false), real(0), 0, 0u);
-    Pixel pixel = Pixel(zero, zero, zero, real(0), real(0), real(0), 0u, 0u, Tally(0u, 0u, 0u));
-    return Work(0u, 0u, false, false, 0, 0, path, pixel, Lighting(0u, zero, real(0)));
+    Pixel pixel = Pixel(zero, zero, zero, real(0), real(0), real(0), real(0), 0u, 0u, Tally(0u, 0u, 0u));
+    return Work(0u, 0u, false, false, 0, path, pixel, Lighting(0u, zero, real(0)));
 }
 
 bool is_done(Work work)
 {
     return !work.busy && work.later == 0u;
-}
-
-// Whether a turn could find the stack's registers full, or empty although it goes on in memory.
-bool waits_for_stack(Work work)
-{
-    return STACK_IS_DEEP && (work.pending == STACK_ROOM || work.pending == 0 && work.saved > 0);
 }
 
 void exchange(bool saves, int slot, inout real3 xyz, inout real w)
@@ -52,9 +46,11 @@ void exchange(bool saves, inout Work work)
         exchange(saves, 2, work.pixel.radiance, work.pixel.charges);
     if (LIGHTS_TAKE_TURNS)
         exchange(saves, 3, work.light.sum, work.light.quad_sum);
-    real3 unused = real3(0);
-    if (HIERARCHY)
-        exchange(saves, 4, unused, search.distance);
+    if (PRUNES || HIERARCHY) {
+        real3 room = real3(work.pixel.room, 0, 0);
+        exchange(saves, 4, room, search.distance);
+        work.pixel.room = room.x;
+    }
     if (SAMPLES > 1)
         exchange(saves, 2, work.pixel.sample_index);
     if (LIGHTS_TAKE_TURNS)
@@ -79,18 +75,16 @@ void exchange(bool saves, inout Work work)
 
 void save(Work work)
 {
-    uint below = uint(work.saved + work.pending);
     saved_words[saved_place(0)] = work.later;
-    saved_words[saved_place(1)] = below << 7 | work.row << 2 | uint(work.fresh) << 1 | uint(work.busy);
+    saved_words[saved_place(1)] = uint(work.pending) << 7 | work.row << 2 | uint(work.fresh) << 1 | uint(work.busy);
     if (is_done(work))
         return;
     atomicAdd(unfinished, uint(bitCount(work.later)) + uint(work.busy));
-    save_path(work.saved + work.pending, work.path);
-    for (int i = 0; i < STACK_ROOM && GLASS; ++i)
-        if (work.pending > 0) {
-            pop(work.path, work.pending);
-            save_path(work.saved + work.pending, work.path);
-        }
+    save_path(work.pending, work.path);
+    while (GLASS && STACK_IN_REGISTERS && work.pending > 0) { // lavapipe: a loop, lest it does all under a mask
+        pop(work.path, work.pending);
+        save_path(work.pending, work.path);
+    }
     exchange(true, work);
 }
 
@@ -105,12 +99,11 @@ void load(inout Work work, uint first_row)
     if (is_done(work))
         return;
     exchange(false, work);
-    work.saved = STACK_IS_DEEP ? max(below - STACK_ROOM / 2, 0) : 0;
-    for (int i = 0; i < STACK_ROOM && GLASS; ++i)
-        if (work.saved + i < below) {
-            load_path(work.saved + i, work.path);
-            push(work.path, work.pending);
-        }
+    for (int i = 0; GLASS && STACK_IN_REGISTERS && i < below; ++i) {
+        load_path(i, work.path);
+        push(work.path, work.pending);
+    }
+    work.pending = below;
     load_path(below, work.path);
     work.pixel.seed = pixel_seed(tile_origin + uvec2(gl_GlobalInvocationID.x, first_row + work.row));
 }

@@ -76,7 +76,9 @@ typedef struct PackedSurface PackedSurface;
 /* The charge for a ray that is not traced is its weight, which is its share in the pixel: times the bound on
  * radiance the most that it could have brought. Charges are summed to nearest; this factor after each
  * addition makes the sum one that is rounded up. */
-#define ROUND_UP 1.0000002384185791015625 /* 1 + 2^-22 */
+#define ROUND_UP 1.0000002384185791015625   /* 1 + 2^-22 */
+#define ROUND_DOWN 0.9999997615814208984375 /* 1 - 2^-22: likewise what is left of an allowance */
+#define LEAST_ROOM 9.5367431640625e-7       /* 2^-20: a smaller share of an allowance is not used */
 
 /* What both tracers can tell of one pixel: events in the order of the recursion. Each has a head and values:
  * two vectors and a number. */
@@ -144,9 +146,10 @@ struct EventHead {
 #define SHARED_A x     /* PackedView.matte: Oren-Nayar's A and B, where all matte surfaces share them */
 #define SHARED_B y
 #define RADIANCE_BOUND x /* PackedView.truncation: no ray brings more radiance than this */
-#define UNBOUNDED 1267650600228229401496703205376.0 /* 2^100 as RADIANCE_BOUND: a light touches a matte surface */
-#define ALLOWANCE y      /* what a sample may be charged for rays left out; negative: none is left out */
-#define SPENDING z       /* how readily that is spent, see NUMERICS.md */
+#define UNBOUNDED                                                                                            \
+    1267650600228229401496703205376.0 /* 2^100 as RADIANCE_BOUND: a light touches a matte surface */
+#define ALLOWANCE y /* what a sample may be charged for rays left out; negative: none is left out */
+#define SPENDING z  /* how readily that is spent, see NUMERICS.md */
 
 struct PackedSurface {
     LAYOUT_VEC4 parameters;

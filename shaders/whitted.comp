@@ -35,8 +35,7 @@ struct Work {
     uint row;   // of the pixel that is being rendered
     bool busy;  // there is such a pixel
     bool fresh; // its next ray is a primary ray
-    int pending; // rays on the stack, in registers
-    int saved; // and in memory
+    int pending; // rays on the stack
     Path path;
     Pixel pixel;
     Lighting light;
@@ -105,7 +104,7 @@ void cut_off(inout Pixel pixel, Path path)
 {
     if (!CHARGED)
         return;
-    pixel.charge = charge(pixel.charge, path.weight);
+    add_charge(pixel, path.weight);
     emit_untraced(true, UNTRACED_BOUNCES, path.weight, pixel.charge);
 }
 
@@ -247,7 +246,7 @@ void turn(inout Work work, uint first_row)
             ++work.pixel.tally.secondary_rays;
             search.stage = SEARCH_FRESH;
         }
-    } while (HIERARCHY && goes_on && !waits_for_stack(work));
+    } while (HIERARCHY && goes_on);
     if (!bounces(hit))
         lights_on = end_path(work.pixel, work.light, work.path, hit, point, normal);
     if (GLASS && !goes_on && !lights_on && work.pending > 0) {
@@ -300,7 +299,7 @@ void main()
         return;
     if (goes_on)
         load(work, first_row);
-    for (uint turns = 0u; !is_done(work) && !waits_for_stack(work) && (!RESUMABLE || turns < most_turns) && (!HIERARCHY || steps > 0u); ++turns)
+    for (uint turns = 0u; !is_done(work) && (!RESUMABLE || turns < most_turns) && (!HIERARCHY || steps > 0u); ++turns)
         turn(work, first_row);
     if (RESUMABLE)
         save(work);

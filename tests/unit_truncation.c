@@ -152,6 +152,44 @@ static void few_rays_for_little_light(void **state)
     scene_destroy(&scene);
 }
 
+/* The rays of the best threshold on weight, the same for the whole picture, by bisection over pictures traced
+ * with a fixed one: 200 bounces, 18x12 pixels (panes: 4x3, all alike). */
+static void no_more_than_twice_the_fewest_rays(void **state)
+{
+    static const struct {
+        const char *scene;
+        unsigned width, height;
+        double max_error;
+        uint64_t fewest;
+    } cases[] = {
+        {"tests/scenes/panes.yaml", 4, 3, 1e-1, 468},      {"tests/scenes/panes.yaml", 4, 3, 1e-2, 2460},
+        {"tests/scenes/panes.yaml", 4, 3, 1e-3, 22244},    {"tests/scenes/shells.yaml", 18, 12, 1e-1, 1316},
+        {"tests/scenes/shells.yaml", 18, 12, 1e-2, 31360}, {"scenes/hard/diamond.yaml", 18, 12, 1e-1, 368},
+        {"scenes/hard/diamond.yaml", 18, 12, 1e-3, 554},   {"scenes/hard/diamond.yaml", 18, 12, 1e-5, 835},
+        {"scenes/hard/touching.yaml", 18, 12, 1e-1, 296},  {"scenes/hard/touching.yaml", 18, 12, 1e-3, 362},
+        {"scenes/hard/touching.yaml", 18, 12, 1e-5, 473},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        struct scene scene = test_read(cases[i].scene);
+        struct picture_settings settings = test_settings(&scene);
+        settings.width = cases[i].width;
+        settings.height = cases[i].height;
+        settings.max_bounces = 200;
+        settings.has_max_error = true;
+        settings.max_error = cases[i].max_error;
+        struct packed_scene packed;
+        assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+        struct rendering rendering = render(&packed, false);
+        uint64_t rays = rendering.rays.primary + rendering.rays.secondary;
+        if (rays > 2 * cases[i].fewest)
+            fail_msg("%s: %ju rays for %g", cases[i].scene, (uintmax_t)rays, cases[i].max_error);
+        image_destroy(&rendering.image);
+        pack_destroy(&packed);
+        scene_destroy(&scene);
+    }
+}
+
 /* On facing mirrors most of the work is in what nobody sees. */
 static void half_of_the_rays(void **state)
 {
@@ -236,13 +274,85 @@ static void lost_rays_bring_nothing(void **state)
     assert_true(rays < all_rays / 10);
 }
 
+/* Balls of two kinds of glass, one in another or across its surface, and more or less light behind. */
+static void randomize_glass(struct scene *scene)
+{
+    for (size_t i = 0; i < scene->material_count; ++i)
+        scene->materials[i].ior = exp(uniform(-1, 1));
+    for (size_t i = 0; i < scene->object_count; ++i)
+        if (scene->objects[i].type == OBJECT_SPHERE) {
+            set(scene->objects[i].sphere.center, uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+            scene->objects[i].sphere.radius = exp(uniform(-2, 1));
+            scene->objects[i].material = 1 + (uniform(0, 1) < 0.5);
+        }
+    for (int c = 0; c < 3; ++c)
+        scene->background[c] = exp(uniform(-6, 2));
+}
+
+/* Against the whole tree of as many bounces, in double. */
+static void random_scenes_keep_the_order(void **state)
+{
+    (void)state;
+    uint64_t rays = 0, all_rays = 0;
+    for (int seed = 1; seed <= 40; ++seed) {
+        struct scene scene = test_read("tests/scenes/shells.yaml");
+        struct picture_settings settings = test_settings(&scene);
+        random_state = (uint64_t)seed;
+        randomize_glass(&scene);
+        settings.width = 12;
+        settings.height = 8;
+        settings.max_bounces = (unsigned)uniform(3, 11);
+        struct packed_scene all;
+        assert_int_equal(pack_scene(&scene, &settings, &all), STATUS_DONE);
+        struct render_plan plan = {
+            .window = {0, 0, 12, 8},
+            .precision = PRECISION_DOUBLE,
+            .count_rays = true,
+            .bound_truncation = true,
+            .quiet = true,
+        };
+        struct rendering expected, got;
+        plan.scene = &all;
+        assert_int_equal(render_on_cpu(&plan, &expected), STATUS_DONE);
+        for (double max_error = 1; max_error > 1e-6; max_error *= 0.1) {
+            struct packed_scene packed;
+            settings.has_max_error = true;
+            settings.max_error = max_error;
+            assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+            plan.scene = &packed;
+            assert_int_equal(render_on_cpu(&plan, &got), STATUS_DONE);
+            for (size_t i = 0; i < 12 * 8; ++i) {
+                double bound = (double)got.image.truncation[i],
+                       cut_off = (double)expected.image.truncation[i];
+                double error = 0;
+                for (size_t c = 3 * i; c < 3 * i + 3; ++c)
+                    error = fmax(error, fabs(got.image.rgb64[c] - expected.image.rgb64[c]));
+                if (!(error <= bound) || error > max_error || (cut_off == 0 && bound > max_error))
+                    fail_msg("seed %d, pixel %zu: off by %g, bound %g, ordered %g", seed, i, error, bound,
+                             max_error);
+            }
+            assert_true(got.rays.secondary <= expected.rays.secondary);
+            rays += got.rays.secondary;
+            all_rays += expected.rays.secondary;
+            image_destroy(&got.image);
+            pack_destroy(&packed);
+        }
+        image_destroy(&expected.image);
+        pack_destroy(&all);
+        scene_destroy(&scene);
+    }
+    assert_true(rays < all_rays * 3 / 4); /* there is something to leave out */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shipped_scenes),
         cmocka_unit_test(several_samples),
         cmocka_unit_test(few_rays_for_little_light),
+        cmocka_unit_test(no_more_than_twice_the_fewest_rays),
         cmocka_unit_test(half_of_the_rays),
+        cmocka_unit_test(random_scenes_keep_the_order),
         cmocka_unit_test(lost_rays_bring_nothing),
     };
     return cmocka_run_group_tests(tests, test_open_device, test_close_device);

@@ -7,13 +7,13 @@
 /* A smaller allowance would not pay, and the tracers would meet denormals. */
 static const double least_allowance = 0x1p-60;
 
-/* Of an allowance, how much is spent where it is expected to last just so; measured, see NUMERICS.md. */
+/* How readily an allowance is spent; chosen by measurement, see NUMERICS.md. */
 static const double spending = 3.2;
 
 /* More than a light of this scene can give, should no better bound be found. */
 static const float unbounded = (float)UNBOUNDED;
 
-/* Added to the bound, so that no charge underflows. */
+/* Added to the bound, so that it is not 0. */
 static const double darkest = 0x1p-30f;
 
 /* Where float puts a point of a surface, off by less than this, in scene units. */
@@ -161,11 +161,11 @@ void truncation_pack(struct packed_scene *scene, double max_error)
     double allowance = (max_error * (1 - slack) - rounding(scene, radiance)) / bound;
     if (max_error >= 0)
         scene->view.between_mirrors = between_mirrors(scene);
-    scene->view.truncation = (layout_vec4){
-        .RADIANCE_BOUND = (float)bound,
-        .ALLOWANCE = bounded && allowance > least_allowance ? (float)allowance : -1,
-        .SPENDING = (float)(spending / allowance),
-    };
+    scene->view.truncation = (layout_vec4){.RADIANCE_BOUND = (float)bound, .ALLOWANCE = -1};
+    if (bounded && allowance > least_allowance) {
+        scene->view.truncation.ALLOWANCE = (float)allowance;
+        scene->view.truncation.SPENDING = (float)(spending / allowance);
+    }
 }
 
 double truncation_bound(const struct packed_scene *scene, double charges)

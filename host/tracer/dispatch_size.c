@@ -7,7 +7,7 @@
  * graphics card's watchdog bites after some seconds. */
 enum { MOST_TURNS = 30000 };
 
-enum { REGISTERS = 8 }; /* of path.glsl: a deeper stack lies in a buffer, too */
+enum { REGISTERS = 8 }; /* of path.glsl: a deeper stack lies in a buffer */
 
 static uint64_t at_least_1(uint64_t x)
 {
@@ -82,18 +82,16 @@ static void choose_turns(const struct packed_scene *scene, bool primary_first, s
     while (size->rows > 4 && turns * size->rows > size->most_turns &&
            turns * size->rows / 4 <= size->most_turns)
         size->rows /= 2; /* which costs less than to go on in the next dispatch */
-    size->resumable = scene->hierarchy || turns * size->rows > size->most_turns ||
-                      (has_kind(scene, KIND_TRANSPARENT) && scene->max_bounces > REGISTERS);
+    size->resumable = scene->hierarchy || turns * size->rows > size->most_turns;
 }
 
 /* The slots in which an invocation keeps its work and its stack. */
 static void choose_memory(const struct packed_scene *scene, struct dispatch_size *size)
 {
-    if (!size->resumable)
+    const bool glass = has_kind(scene, KIND_TRANSPARENT);
+    if (!size->resumable && !(glass && scene->max_bounces > REGISTERS))
         return;
-    uint32_t paths = 1; /* under way, and on the stack */
-    if (has_kind(scene, KIND_TRANSPARENT))
-        paths += (uint32_t)scene->max_bounces;
+    const uint32_t paths = 1 + (glass ? (uint32_t)scene->max_bounces : 0); /* under way, and on the stack */
     size->saved_reals = WORK_REALS + 2 * paths;
     size->saved_words = WORK_WORDS + 3 * paths;
 }
