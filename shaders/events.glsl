@@ -45,11 +45,10 @@ void emit(int kind, ivec4 facts, real3 first, real3 second, real third)
 
 // A dispatch that takes up a ray where another left it knows its place, too.
 #define emit_ray(when, sample_index, path)                                                                 \
-    if (when) {                                                                                                   \
-        event_place = ivec4(0, sample_index, path.branch, path.bounces);                                   \
+    event_place = ivec4(0, sample_index, path.branch, path.bounces);                                       \
+    if (when)                                                                                              \
         emit(EVENT_RAY, ivec4(path.ray.surface, path.ray.inward, 0, 0), path.ray.origin,                   \
-             path.ray.direction, path.weight);                                                             \
-    }
+             path.ray.direction, path.weight);
 #define emit_hit(when, hit, point, normal)                                                                 \
     if (when) {                                                                                                    \
         bool met = hit.surface >= 0;                                                                       \
