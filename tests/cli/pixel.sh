@@ -144,7 +144,7 @@ place() {
     done
     refused 2 'pixel takes a scene file, a column and a row' pixel "$figure" 1
     refused 2 'pixel takes a scene file, a column and a row' pixel "$figure" 1 2 3
-    refused 2 'expected a scene file' pixel
+    refused 2 'pixel takes a scene file, a column and a row' pixel
 }
 
 options() {
