@@ -100,10 +100,10 @@ function(add_swiftshader_test name)
 endfunction()
 add_swiftshader_test(devices devices)
 set_tests_properties(elsewhere/swiftshader/devices PROPERTIES PASS_REGULAR_EXPRESSION "\\* 0  SwiftShader")
-if(VKWHITTED_SLOW_TESTS) # they hold nothing that the others do not
-    foreach(scene IN LISTS figure_scenes)
+if(VKWHITTED_SLOW_TESTS)
+    foreach(scene IN LISTS figure_scenes hard_scenes)
         cmake_path(GET scene STEM name)
-        add_swiftshader_test(${name}/150x100 check --size 150x100 ${scene})
+        add_swiftshader_test(${name}/60x40 check --size 60x40 ${scene})
     endforeach()
 endif()
 # Tiles of lavapipe, SwiftShader and the reference make one picture.
@@ -113,12 +113,3 @@ set_tests_properties(
     PROPERTIES LABELS elsewhere TIMEOUT 900
                ENVIRONMENT "VKWHITTED=$<TARGET_FILE:vkwhitted>;SOURCE_DIR=${PROJECT_SOURCE_DIR};\
 SWIFTSHADER=${VKWHITTED_SWIFTSHADER_ICD}")
-set(swiftshader_scenes ${hard_scenes})
-if(NOT VKWHITTED_SLOW_TESTS)
-    list(FILTER swiftshader_scenes INCLUDE REGEX
-         "/diamond\\.yaml$")
-endif()
-foreach(scene IN LISTS swiftshader_scenes)
-    cmake_path(GET scene STEM name)
-    add_swiftshader_test(${name}/60x40 check --size 60x40 ${scene})
-endforeach()

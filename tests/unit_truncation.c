@@ -251,7 +251,7 @@ static void lost_rays_bring_nothing(void **state)
 {
     (void)state;
     uint64_t rays = 0, all_rays = 0;
-    for (int seed = 1; seed <= 200; ++seed) {
+    for (int seed = 1; seed <= 60; ++seed) {
         struct scene scene = test_read("scenes/hard/mirror_corridor.yaml");
         struct picture_settings settings = test_settings(&scene);
         random_state = (uint64_t)seed;
@@ -294,7 +294,7 @@ static void random_scenes_keep_the_order(void **state)
 {
     (void)state;
     uint64_t rays = 0, all_rays = 0;
-    for (int seed = 1; seed <= 40; ++seed) {
+    for (int seed = 1; seed <= 20; ++seed) {
         struct scene scene = test_read("tests/scenes/shells.yaml");
         struct picture_settings settings = test_settings(&scene);
         random_state = (uint64_t)seed;
