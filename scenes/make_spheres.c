@@ -143,7 +143,8 @@ static void make_decades(unsigned long count)
 {
     put_header(count);
     for (unsigned long i = 0; i < count; ++i) {
-        const double radius = ldexp(1 + uniform(), (int)(30 * uniform()) - 15), radii = between(8, 24);
+        const int exponent = (int)(30 * uniform()) - 15;
+        const double radius = ldexp(1 + uniform(), exponent), radii = between(8, 24);
         const struct vector way = direction();
         put_sphere((struct vector){radii * radius * way.x, radii * radius * way.y, radii * radius * way.z},
                    radius);

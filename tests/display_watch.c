@@ -177,7 +177,8 @@ static void ends_with_escape(void **state)
     x11_window_key(&window, XK_Escape, 0);
     assert_int_equal(waitpid(program, &status, 0), program);
     program = 0;
-    assert_true(WIFEXITED(status));
+    if (!WIFEXITED(status))
+        fail_msg("ended by signal %d", WTERMSIG(status));
     assert_int_equal(WEXITSTATUS(status), 0);
     assert_false(run("grep -q alidation err"));
 }

@@ -13,6 +13,7 @@ const char *__lsan_default_suppressions(void)
 {
     return "leak:libvulkan_lvp\n"
            "leak:libLLVM\n"
+           "leak:libstdc++\n" /* behind whose operator new no caller is seen; only libraries use it */
            "leak:libVkLayer_khronos_validation\n"
            "leak:libX11\n"; /* what a call held when the display went away */
 }

@@ -10,8 +10,6 @@ endfunction()
 
 add_unit_test(bench)
 target_link_options(unit_bench PRIVATE -Wl,--wrap=calloc,--wrap=malloc) # to have them fail
-add_unit_test(building)
-target_link_options(unit_building PRIVATE -Wl,--wrap=clock_ms) # to have time fly
 add_unit_test(camera_motion)
 add_unit_test(compare)
 add_unit_test(escape)
@@ -29,9 +27,6 @@ add_unit_test(output_file)
 add_unit_test(progress)
 add_unit_test(scene_file)
 add_unit_test(inputs)
-add_unit_test(compiler)
-target_compile_definitions(unit_compiler PRIVATE SHADER_DEBUG_INFO=$<BOOL:${VKWHITTED_SHADER_DEBUG_INFO}>)
-add_unit_test(read_image)
 add_unit_test(srgb)
 add_unit_test(verdict)
 add_unit_test(warnings)
@@ -40,6 +35,11 @@ add_unit_test(text_file)
 # These open a device. The dear ones, with the same bits in all builds, run in one.
 set(device_modules)
 if(VKWHITTED_TESTS STREQUAL "all")
+    add_unit_test(compiler)
+    target_compile_definitions(unit_compiler PRIVATE SHADER_DEBUG_INFO=$<BOOL:${VKWHITTED_SHADER_DEBUG_INFO}>)
+    add_unit_test(read_image)
+    add_unit_test(building) # whose times are those of a program without sanitizers
+    target_link_options(unit_building PRIVATE -Wl,--wrap=clock_ms) # to have time fly
     add_unit_test(convergence)
     list(APPEND device_modules pixel tracer properties total_reflection truncation values)
 endif()

@@ -129,9 +129,9 @@ void escape_streams(void)
     }
 }
 
-bool escape_close_output(void)
+bool escape_flush_output(void)
 {
-    const bool closed = fclose(stdout) == 0;
+    const bool flushed = fflush(stdout) == 0;
     errno = streams[0].error ? streams[0].error : errno;
-    return closed && streams[0].error == 0;
+    return flushed && streams[0].error == 0;
 }

@@ -22,7 +22,8 @@ void escape_line(FILE *stream, const char *text);
  * newlines and tabs, and appears line by line. */
 void escape_streams(void);
 
-/* Closes standard output. False and errno where something that was written to it did not arrive. */
-bool escape_close_output(void);
+/* False and errno where something that was written to standard output did not arrive. The stream stays open:
+ * libraries write to it as the process ends. */
+bool escape_flush_output(void);
 
 #endif

@@ -46,7 +46,7 @@ int main(int argc, char **argv)
     else
         status = run(argc, argv);
     output_file_release();
-    if (!escape_close_output()) {
+    if (!escape_flush_output()) {
         log_error("cannot write to standard output: %s", strerror(errno));
         status = status_worse(status, STATUS_UNABLE);
     }

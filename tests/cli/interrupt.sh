@@ -29,7 +29,7 @@ ends_by() {
 
 # at_random_moments MILLISECONDS ARGUMENTS...: of the first so many.
 at_random_moments() {
-    local most=$1 signals=(INT TERM HUP PIPE) times=20 delay
+    local most=$1 signals=(INT TERM HUP PIPE) times=8 delay
     shift
     [ "$SANITIZE" != ON ] || times=4
     for ((i = 0; i < times; ++i)); do
