@@ -30,7 +30,7 @@ list(FILTER few_spheres EXCLUDE REGEX "sphere_decades|coincident_spheres|spheres
 set(packed_scenes ${CMAKE_CURRENT_BINARY_DIR}/reference_bits_scenes)
 set(expected_bits ${CMAKE_CURRENT_BINARY_DIR}/reference_bits_expected)
 add_test(NAME elsewhere/pack_scenes
-         COMMAND pack_scenes ${packed_scenes} 24x16 ${few_spheres})
+         COMMAND pack_scenes ${packed_scenes} 15x10 ${few_spheres})
 add_test(NAME elsewhere/reference_bits COMMAND sh -c "\"$0\" \"$1\" >\"$2\" && test -s \"$2\""
                                                $<TARGET_FILE:reference_bits> ${packed_scenes} ${expected_bits})
 set_tests_properties(elsewhere/pack_scenes PROPERTIES LABELS elsewhere FIXTURES_SETUP packed_scenes)

@@ -314,7 +314,7 @@ resident_kib() { awk '$1 == "VmRSS:" { print $2 }' /proc/$watcher/status; }
 # Good and broken saves, in all ways and in bursts: after each the picture is that of the last good state.
 saves() {
     local files=(s.yaml shaders/shade.glsl) names=(scene shader) now=(good-2 good-2) good=2-2 settled_kib=0
-    local saves=${VKWHITTED_WATCH_SAVES:-24} which kind burst before i
+    local saves=${VKWHITTED_WATCH_SAVES:-60} which kind burst before i
     RANDOM=1
     start
     prepare_saves
