@@ -140,7 +140,8 @@ static void replace(size_t at, size_t removed, const uint8_t *bytes, size_t size
     if (current.size - removed + size > MOST_BYTES)
         return;
     memmove(current.data + at + size, current.data + at + removed, current.size - at - removed);
-    memcpy(current.data + at, bytes, size);
+    if (size > 0) /* or else bytes may be NULL */
+        memcpy(current.data + at, bytes, size);
     current.size += size - removed;
 }
 
