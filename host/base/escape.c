@@ -5,6 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/write.h"
+
 enum { MOST_CHARACTER = 4 }; /* bytes of UTF-8 */
 
 /* Bytes of a character with this first one; 0: there is none. */
@@ -70,18 +72,6 @@ struct escaped_stream {
     size_t begun_size;
 };
 
-static bool write_all(struct escaped_stream *stream, const char *bytes, size_t size)
-{
-    while (size > 0 && stream->error == 0) {
-        const ssize_t part = write(stream->descriptor, bytes, size);
-        if (part < 0 && errno != EINTR)
-            stream->error = errno;
-        bytes += part > 0 ? part : 0;
-        size -= part > 0 ? (size_t)part : 0;
-    }
-    return stream->error == 0;
-}
-
 static ssize_t write_escaped(void *cookie, const char *bytes, size_t size)
 {
     struct escaped_stream *stream = cookie;
@@ -108,7 +98,7 @@ static ssize_t write_escaped(void *cookie, const char *bytes, size_t size)
         }
         stream->begun_size = length - used;
         memcpy(stream->begun, text + used, stream->begun_size);
-        if (!write_all(stream, out, put))
+        if (!write_all(stream->descriptor, out, put, &stream->error))
             return 0;
     }
     return (ssize_t)size;

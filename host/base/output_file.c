@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/interrupt.h"
+#include "base/write.h"
 
 /* The outputs that are to be written: those that exist by device and inode, the others by folder and name. */
 struct claim {
@@ -54,17 +55,10 @@ static char *find_target(const char *path, int *mode)
 }
 
 /* The stream's own functions, so that it is known why a write failed: stdio tells only that one did. */
-static ssize_t write_all(void *cookie, const char *bytes, size_t size)
+static ssize_t write_to_file(void *cookie, const char *bytes, size_t size)
 {
     struct output_file *file = cookie;
-    size_t written = 0;
-    while (written < size && file->error == 0) {
-        ssize_t part = write(file->descriptor, bytes + written, size - written);
-        if (part < 0 && errno != EINTR)
-            file->error = errno;
-        written += part > 0 ? (size_t)part : 0;
-    }
-    return (ssize_t)(file->error == 0 ? size : 0);
+    return write_all(file->descriptor, bytes, size, &file->error) ? (ssize_t)size : 0;
 }
 
 /* Creates a file beside target under a name nobody has: exclusive and with mode 0666 it has the permissions
@@ -94,7 +88,7 @@ static bool create_beside(struct output_file *file)
     }
     if (file->descriptor < 0)
         return false;
-    file->stream = fopencookie(file, "w", (cookie_io_functions_t){.write = write_all});
+    file->stream = fopencookie(file, "w", (cookie_io_functions_t){.write = write_to_file});
     return file->stream != NULL;
 }
 
@@ -133,7 +127,7 @@ bool output_file_write_at(struct output_file *file, const void *bytes, size_t si
 {
     if (file->error == 0 && lseek(file->descriptor, (off_t)offset, SEEK_SET) < 0)
         file->error = errno;
-    return file->error == 0 && write_all(file, bytes, size) == (ssize_t)size;
+    return write_all(file->descriptor, bytes, size, &file->error);
 }
 
 static struct claim **find_claim(const struct stat *identity, bool exists, const char *name)

@@ -110,3 +110,10 @@ enum status input_file_status(int error)
             return STATUS_REFUSED;
     return STATUS_UNABLE;
 }
+
+enum status input_file_refuse(const char *path)
+{
+    const int error = errno;
+    log_error("%s: cannot read: %s", path, input_file_problem(error));
+    return input_file_status(error);
+}

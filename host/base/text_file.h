@@ -27,4 +27,7 @@ char *text_file_read(const char *path, bool regular_only, size_t most, size_t *l
 const char *input_file_problem(int error);
 enum status input_file_status(int error);
 
+/* Reports that the file cannot be read for errno's reason; the status that comes of it. */
+enum status input_file_refuse(const char *path);
+
 #endif

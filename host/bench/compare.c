@@ -24,8 +24,9 @@ enum status bench_document_read(const char *path, json_t **document)
     char *text = text_file_read(path, false, MOST_BYTES, &length);
     *document = NULL;
     if (!text) {
-        log_error("%s: %s", path, input_file_problem(errno));
-        return input_file_status(errno);
+        const int reason = errno;
+        log_error("%s: %s", path, input_file_problem(reason));
+        return input_file_status(reason);
     }
     *document = json_loadb(text, length, JSON_REJECT_DUPLICATES, &error);
     free(text);

@@ -1,6 +1,5 @@
 #include "image/exr_input.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -33,9 +32,7 @@ enum status exr_input_open(const char *path, struct exr_input **input)
     off_t size;
     const int file = input_file_open(path, true, &size);
     if (file < 0) {
-        const int error = errno;
-        log_error("%s: cannot read: %s", path, input_file_problem(error));
-        return input_file_status(error);
+        return input_file_refuse(path);
     }
     close(file);
     struct exr_input *opened = calloc(1, sizeof *opened);

@@ -1,6 +1,5 @@
 #include "image/read.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -146,9 +145,7 @@ enum status image_read(const char *path, const struct image_wanted *wanted, stru
         return STATUS_REFUSED;
     char *bytes = text_file_read(path, false, largest_file, &size);
     if (!bytes) {
-        const int error = errno;
-        log_error("%s: cannot read: %s", path, input_file_problem(error));
-        return input_file_status(error);
+        return input_file_refuse(path);
     }
     enum status status = image_read_bytes(path, bytes, size, wanted, picture);
     free(bytes);

@@ -41,11 +41,6 @@ struct parts {
     int least_height, most_pixels;
 };
 
-static int smaller(int a, int b)
-{
-    return a < b ? a : b;
-}
-
 /* So few pixels that it does not take long, by what is known. */
 static struct parts choose_first(const struct render_plan *plan, int threads)
 {
@@ -55,7 +50,7 @@ static struct parts choose_first(const struct render_plan *plan, int threads)
     const int pixels = of_pixel < 16384 ? (int)(16384 / of_pixel) : 1;
     const int rows = pixels / width / threads * threads;
     return (struct parts){
-        .width = rows > 0 ? width : smaller(width, pixels / threads + 1),
+        .width = rows > 0 ? width : MIN(width, pixels / threads + 1),
         .height = rows > 0 ? rows : threads,
         .least_height = threads,
         .most_pixels = 65536 + threads * width,
@@ -69,9 +64,9 @@ static void choose_next(struct parts *parts, double took_ms, int window_width)
     const int growth = took_ms < goal_ms / 16 ? 8 : took_ms < goal_ms / 2 ? 2 : 1;
     const int most_rows = parts->most_pixels / window_width / parts->least_height * parts->least_height;
     if (growth > 1 && parts->width < window_width)
-        parts->width = smaller(growth * parts->width, window_width);
+        parts->width = MIN(growth * parts->width, window_width);
     else if (growth > 1)
-        parts->height = smaller(growth * parts->height, most_rows);
+        parts->height = MIN(growth * parts->height, most_rows);
     else if (took_ms > 2 * goal_ms && parts->height >= 2 * parts->least_height)
         parts->height /= 2;
     else if (took_ms > 2 * goal_ms && parts->width > 1)
@@ -87,10 +82,10 @@ static bool step(struct parts *parts, const struct render_plan *plan)
     part->x += part->width;
     if (part->x == right || part->height == 0) {
         const int y = part->height == 0 ? (int)window->y : part->y + part->height;
-        *part = (struct reference_window){
-            .x = (int)window->x, .y = y, .height = smaller(parts->height, bottom - y)};
+        *part =
+            (struct reference_window){.x = (int)window->x, .y = y, .height = MIN(parts->height, bottom - y)};
     }
-    part->width = smaller(parts->width, right - part->x);
+    part->width = MIN(parts->width, right - part->x);
     return part->height > 0;
 }
 
