@@ -31,9 +31,8 @@ enum status exr_input_open(const char *path, struct exr_input **input)
     *input = NULL;
     off_t size;
     const int file = input_file_open(path, true, &size);
-    if (file < 0) {
+    if (file < 0)
         return input_file_refuse(path);
-    }
     close(file);
     struct exr_input *opened = calloc(1, sizeof *opened);
     if (!opened) {

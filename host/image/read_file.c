@@ -144,9 +144,8 @@ enum status image_read(const char *path, const struct image_wanted *wanted, stru
     if (image_format_of(path) == IMAGE_FORMAT_UNKNOWN)
         return STATUS_REFUSED;
     char *bytes = text_file_read(path, false, largest_file, &size);
-    if (!bytes) {
+    if (!bytes)
         return input_file_refuse(path);
-    }
     enum status status = image_read_bytes(path, bytes, size, wanted, picture);
     free(bytes);
     return status;
