@@ -9,6 +9,13 @@ struct reference_rays {
     uint64_t primary, secondary, shadow;
 };
 
+static inline void rays_add(struct reference_rays *sum, struct reference_rays more)
+{
+    sum->primary += more.primary;
+    sum->secondary += more.secondary;
+    sum->shadow += more.shadow;
+}
+
 /* Part of the picture, in pixels from the top left. */
 struct reference_window {
     int x, y, width, height;

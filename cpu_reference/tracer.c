@@ -254,9 +254,7 @@ void REFERENCE_RENDER(const struct packed_scene *scene, struct reference_window 
             shadow += pixel.tally.rays.shadow;
         }
     }
-    picture->rays.primary += primary;
-    picture->rays.secondary += secondary;
-    picture->rays.shadow += shadow;
+    rays_add(&picture->rays, (struct reference_rays){primary, secondary, shadow});
 }
 
 #endif

@@ -57,9 +57,7 @@ static enum status render(const struct packed_scene *scene, enum precision preci
         struct reference_rays rays = render_pixel(scene, precision, i, pixels);
 #pragma omp critical
         {
-            pixels->rays.primary += rays.primary;
-            pixels->rays.secondary += rays.secondary;
-            pixels->rays.shadow += rays.shadow;
+            rays_add(&pixels->rays, rays);
             size_t before = share * done / count, now = share * ++done / count;
             if (now > before)
                 progress_advance(progress, now - before);

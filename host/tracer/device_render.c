@@ -43,11 +43,8 @@ static enum status render_output(struct vulkan_context *context, const struct re
         const struct window strip = window_strip(plan->window, plan->strips, y);
         status = tracer_render_values(tracer, strip, values, &progress, &unused);
         y += strip.height;
-        if (values->rays) {
-            sum.primary += values->rays->primary;
-            sum.secondary += values->rays->secondary;
-            sum.shadow += values->rays->shadow;
-        }
+        if (values->rays)
+            rays_add(&sum, *values->rays);
     }
     if (values->rays)
         *values->rays = sum;
@@ -61,12 +58,9 @@ enum status rays_on_device(struct vulkan_context *context, const struct render_p
 {
     struct reference_rays traced;
     enum status status = render_output(context, plan, OUTPUT_RAYS, &(struct tracer_values){.rays = &traced});
-    if (status != STATUS_DONE)
-        return status;
-    rays->primary += traced.primary;
-    rays->secondary += traced.secondary;
-    rays->shadow += traced.shadow;
-    return STATUS_DONE;
+    if (status == STATUS_DONE)
+        rays_add(rays, traced);
+    return status;
 }
 
 enum status signatures_on_device(struct vulkan_context *context, const struct render_plan *plan,

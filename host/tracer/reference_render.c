@@ -33,8 +33,8 @@ static void copy_row(const struct render_plan *plan, struct reference_window par
         image->truncation[to + i] = (float)truncation_bound(plan->scene, picture->charges[from + i]);
 }
 
-/* Parts of a window, from left to right and from top to bottom, that each take about as long: so that Ctrl-C
- * is heard and progress is seen. */
+/* Parts of a window, from left to right and from top to bottom, that each take about as long: so that
+ * progress is seen. */
 struct parts {
     struct reference_window part;
     int width, height; /* of the next one */
@@ -124,9 +124,7 @@ static enum status render_once_on_cpu(void *renderer, const struct render_plan *
         progress_advance(progress, samples);
         choose_next(&parts, took_ms, width);
     }
-    rays->primary += picture.rays.primary;
-    rays->secondary += picture.rays.secondary;
-    rays->shadow += picture.rays.shadow;
+    rays_add(rays, picture.rays);
     free(values);
     return STATUS_DONE;
 }

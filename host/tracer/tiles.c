@@ -4,8 +4,8 @@
 
 #include "base/clock.h"
 
-/* A dispatch should take about this long, so that Ctrl-C is heard, no watchdog bites and starting it costs
- * little. */
+/* A dispatch should take about this long, so that progress is seen, no watchdog bites and starting it
+ * costs little. */
 static const double goal_ms = 50;
 
 /* A picture on its way: tiles from left to right and from top to bottom. */
