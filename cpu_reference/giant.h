@@ -14,11 +14,6 @@ struct giant {
     real curvature;       /* 1 / radius */
 };
 
-static inline bool is_giant(const struct packed_scene *scene, int surface)
-{
-    return surface < 32 && (scene->giants >> surface & 1) != 0;
-}
-
 static inline struct giant giant_of(const struct packed_scene *scene, int surface)
 {
     layout_vec4 shape = scene->spheres[surface].center_radius;

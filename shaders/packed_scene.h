@@ -1,6 +1,8 @@
 #ifndef VKWHITTED_PACKED_SCENE_H
 #define VKWHITTED_PACKED_SCENE_H
 
+#include <stdbool.h>
+
 #include "scene_layout.h"
 
 /* Everything a renderer needs to know, for the device and the reference alike; C only. Both start from
@@ -25,5 +27,10 @@ struct packed_scene {
     const struct sphere_tree
         *tree; /* the reference's, of the spheres that are not looped over; NULL: it tries all of them */
 };
+
+static inline bool is_giant(const struct packed_scene *scene, int surface)
+{
+    return surface < 32 && (scene->giants >> surface & 1) != 0;
+}
 
 #endif

@@ -57,11 +57,6 @@ static inline int body_file_order(const struct packed_scene *scene, int i)
                                    : scene->planes[i - scene->sphere_count].surface.tags.FILE_ORDER;
 }
 
-static inline bool body_is_giant(const struct packed_scene *scene, int i)
-{
-    return i < 32 && (scene->giants >> i & 1) != 0;
-}
-
 static inline layout_vec4 body_shape(const struct packed_scene *scene, int i)
 {
     return i < scene->sphere_count ? scene->spheres[i].center_radius
@@ -71,8 +66,7 @@ static inline layout_vec4 body_shape(const struct packed_scene *scene, int i)
 static inline struct body body_packed(const struct packed_scene *scene, int i)
 {
     layout_vec4 shape = body_shape(scene, i);
-    struct body body = {i < scene->sphere_count, dvec3_of_vec4(shape), (double)shape.w,
-                        body_is_giant(scene, i)};
+    struct body body = {i < scene->sphere_count, dvec3_of_vec4(shape), (double)shape.w, is_giant(scene, i)};
     if (body.is_giant) {
         const double curvature = (double)scene->surfaces[i].more_parameters.CURVATURE;
         body.number = sqrt(dvec3_dot(body.vector, body.vector) + 2 * curvature * body.number) / curvature;

@@ -322,10 +322,9 @@ Oracle::Oracle(const packed_scene &packed) : scene(packed)
     for (int i = 0; i < packed.sphere_count; ++i) {
         const PackedSphere &sphere = packed.spheres[i];
         const PackedSurface &surface = packed.surfaces[sphere.tags.SURFACE];
-        const bool giant = i < 32 && (packed.giants >> i & 1) != 0;
         bodies.push_back({true, vector_of(sphere.center_radius), sphere.center_radius.w,
-                          giant ? surface.more_parameters.CURVATURE : 0, &surface, sphere.tags.FILE_ORDER,
-                          true});
+                          is_giant(&packed, i) ? surface.more_parameters.CURVATURE : 0, &surface,
+                          sphere.tags.FILE_ORDER, true});
     }
     for (int i = 0; i < packed.plane_count; ++i) {
         const PackedPlane &plane = packed.planes[i];
