@@ -7,7 +7,7 @@ cd "$1"
 # room: the rooms that it may use; `reference` stands for the headers below
 table='
 cli: bench pixel watch check tracer scene image vulkan base
-bench: check tracer scene image vulkan base reference
+bench: tracer scene image vulkan base reference
 pixel: tracer scene image vulkan base reference
 watch: check tracer scene image vulkan base
 check: tracer scene image base reference

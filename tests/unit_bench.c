@@ -325,22 +325,11 @@ static enum status truth_and_error(void)
     return status;
 }
 
-static enum status pictures(void)
-{
-    static float black[12 * 8 * 3];
-    const struct image image = {.width = 12, .height = 8, .rgb = black};
-    json_t *made;
-    enum status status = report_pictures(&image, &image, &made);
-    assert_true(status != STATUS_DONE || json_object_size(made) == 2);
-    json_decref(made);
-    return status;
-}
-
 /* Each of the allocations fails once: that is reported once, and is no crash. */
 static void no_memory(void **state)
 {
     (void)state;
-    enum status (*const tries[])(void) = {deepest, truth_and_error, pictures};
+    enum status (*const tries[])(void) = {deepest, truth_and_error};
     glass = test_read("scenes/figure_3c.yaml");
     glass_picture = test_settings(&glass);
     glass_picture.width = 12;

@@ -15,15 +15,14 @@ struct bench_options {
     struct job_options job;         /* of these the size and quiet */
     struct vulkan_context *context; /* NULL: the CPU alone */
     bool quick;
-    bool wants_pictures; /* for the report */
 };
 
 /* Measures one scene as the options say. *scene gets an element for the document's "scenes"; NULL with any
  * status but STATUS_DONE. A setting that the device cannot do is left out with a warning. */
 enum status bench_scene(const struct bench_options *options, const char *path, json_t **scene);
 
-/* A scene of the bench document for people: a line a setting, then the fitted slopes, what device and
- * reference agree in, and a recommendation for each of four errors. */
+/* A scene of the bench document for people: a line a setting, then the fitted slopes and a recommendation for
+ * each of four errors. */
 void bench_print_scene(const json_t *scene, FILE *stream);
 
 /* All points of all scenes of the document, one a line under a line of names (RFC 4180). The file appears

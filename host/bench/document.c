@@ -7,6 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/json.h"
 #include "base/statistics.h"
 
 enum { SLOPE_FROM = 4, SLOPE_TO = 256 };
@@ -140,7 +141,6 @@ static json_t *describe_recommendation(const struct bench *bench, double error)
 enum status bench_describe(struct bench *bench, json_t **scene)
 {
     const struct picture_settings *picture = &bench->picture;
-    const struct judgement *rounding = &bench->rounding;
     json_t *points = json_array(), *convergence = json_array(), *recommendations = json_array();
     bench_mark_pareto(bench->points, bench->count);
     for (size_t i = 0; i < bench->count; ++i)
@@ -151,21 +151,13 @@ enum status bench_describe(struct bench *bench, json_t **scene)
     for (int i = 0; i < 4; ++i)
         append(&recommendations, describe_recommendation(bench, (const double[]){1e-2, 1e-3, 1e-4, 1e-5}[i]));
     *scene = json_pack(
-        "{s:s, s:i, s:i, s:i, s:i, s:i, s:b, s:s, s:I, s:s, s:I, s:o, s:o, s:o, "
-        "s:{s:s, s:I, s:o, s:o, s:o, s:o, s:I}, s:o, s:O*}",
-        "scene", bench->job.scene.path, "width", (int)picture->width, "height", (int)picture->height,
-        "max_bounces", (int)picture->max_bounces, "light_samples", (int)picture->light_samples, "samples",
+        "{s:s, s:i, s:i, s:i, s:i, s:i, s:b, s:s, s:I, s:s, s:I, s:o, s:o, s:o}", "scene",
+        bench->job.scene.path, "width", (int)picture->width, "height", (int)picture->height, "max_bounces",
+        (int)picture->max_bounces, "light_samples", (int)picture->light_samples, "samples",
         (int)picture->samples, "sampled", bench->has_quad_lights, "truth", bench->truth.text, "truth_pixels",
         (json_int_t)pixel_grid_count(&bench->truth.pixels.grid), "truth_samples", bench->filtered.text,
         "truth_samples_pixels", (json_int_t)pixel_grid_count(&bench->filtered.pixels.grid), "points", points,
-        "convergence", convergence, "agreement",
-        bench->options->context ? json_pack("{s:I, s:I}", "differing_pixels", (json_int_t)bench->differing,
-                                            "pixels", (json_int_t)picture->width * picture->height)
-                                : json_null(),
-        "rounding", "against", "quad", "pixels", (json_int_t)bench->rounding_pixels, "median",
-        json_real_or_null(rounding->median), "p99", json_real_or_null(rounding->percentile_99), "p9999",
-        json_real_or_null(rounding->percentile_99_99), "max", json_real_or_null(rounding->max), "unexplained",
-        (json_int_t)rounding->unexplained, "recommendations", recommendations, "pictures", bench->pictures);
+        "convergence", convergence, "recommendations", recommendations);
     if (*scene)
         return STATUS_DONE;
     log_error("no memory for the result of %s, or its name is not UTF-8", bench->job.scene.path);

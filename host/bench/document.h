@@ -16,10 +16,6 @@ const struct bench_point *bench_fastest_within(const struct bench_point *points,
  * without memory or where its path is not UTF-8. */
 enum status bench_describe(struct bench *bench, json_t **scene);
 
-/* The picture as "render" and, with a reference, where it differs from that as "heatmap" (see heatmap.h),
- * each a PNG in base64, in an object that the caller frees, also on failure (reported). */
-enum status report_pictures(const struct image *image, const struct image *reference, json_t **pictures);
-
 /* A number of the document: infinite where it is null, which stands for what is not finite, or missing. */
 double bench_number(const json_t *object, const char *key);
 

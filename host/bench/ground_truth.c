@@ -30,24 +30,19 @@ static struct reference_rays render_pixel(const struct packed_scene *scene, enum
         reference_render_float, reference_render_double, reference_render_quad};
     const int place = (int)pixel_grid_place(&pixels->grid, pixel, (unsigned)scene->width);
     const struct reference_window window = {place % scene->width, place / scene->width, 1, 1};
-    struct reference_picture picture = {.rgb = &pixels->rgb[3 * pixel],
-                                        .signatures = &pixels->signatures[pixel]};
+    struct reference_picture picture = {.rgb = &pixels->rgb[3 * pixel]};
     renderers[precision](scene, window, 1, &picture);
-    if (pixels->explanations)
-        reference_explain_quad(scene, window, 1, &pixels->explanations[pixel]);
     return picture.rays;
 }
 
 /* Renders the pixels of pixels->grid. Without a share, progress may be NULL. */
-static enum status render(const struct packed_scene *scene, enum precision precision, bool explained,
+static enum status render(const struct packed_scene *scene, enum precision precision,
                           struct progress *progress, unsigned share, struct grid_pixels *pixels)
 {
     const size_t count = pixel_grid_count(&pixels->grid);
     size_t done = 0;
     pixels->rgb = calloc(count, 3 * sizeof *pixels->rgb);
-    pixels->signatures = calloc(count, sizeof *pixels->signatures);
-    pixels->explanations = explained ? calloc(count, sizeof *pixels->explanations) : NULL;
-    if (!pixels->rgb || !pixels->signatures || (explained && !pixels->explanations)) {
+    if (!pixels->rgb) {
         log_error("no memory for %zu pixels of the reference", count);
         grid_pixels_destroy(pixels);
         return STATUS_UNABLE;
@@ -84,7 +79,7 @@ static enum status estimate(const struct packed_scene *scene, double *secondary,
     const struct reference_rays *rays = &result.rays;
     double lights = scene->quad_light_count > 0 ? scene->light_samples : 1;
     pilot.samples = pilot.light_samples = 1;
-    enum status status = render(&pilot, PRECISION_FLOAT, false, NULL, 0, &result);
+    enum status status = render(&pilot, PRECISION_FLOAT, NULL, 0, &result);
     if (status != STATUS_DONE)
         return status;
     double pixels = (double)pixel_grid_count(&result.grid);
@@ -95,8 +90,10 @@ static enum status estimate(const struct packed_scene *scene, double *secondary,
     return STATUS_DONE;
 }
 
-enum status grid_render(const struct packed_scene *packed, enum precision precision, bool explained,
-                        double work, struct progress *progress, unsigned share, struct grid_pixels *pixels)
+/* Renders pixels of the picture on all processors: the finest grid that is about so much work, in rays times
+ * objects. On failure they are empty. */
+static enum status render_within(const struct packed_scene *packed, enum precision precision, double work,
+                                 struct progress *progress, unsigned share, struct grid_pixels *pixels)
 {
     double secondary, work_a_pixel;
     struct packed_scene scene;
@@ -107,7 +104,7 @@ enum status grid_render(const struct packed_scene *packed, enum precision precis
     if (status == STATUS_DONE) {
         pixels->grid =
             pixel_grid_fitting((unsigned)packed->width, (unsigned)packed->height, work / work_a_pixel);
-        status = render(&scene, precision, explained, progress, share, pixels);
+        status = render(&scene, precision, progress, share, pixels);
     }
     return status;
 }
@@ -115,8 +112,6 @@ enum status grid_render(const struct packed_scene *packed, enum precision precis
 void grid_pixels_destroy(struct grid_pixels *pixels)
 {
     free(pixels->rgb);
-    free(pixels->signatures);
-    free(pixels->explanations);
     *pixels = (struct grid_pixels){0};
 }
 
@@ -165,8 +160,8 @@ enum status ground_truth_create(const struct scene *scene, const struct packed_s
     enum status status = pack_scene_beside(other, scene, &settings, &packed);
     if (status != STATUS_DONE)
         return status;
-    status = grid_render(&packed, kind == TRUTH_EXACT ? PRECISION_QUAD : PRECISION_DOUBLE, false, work,
-                         progress, share, &truth->pixels);
+    status = render_within(&packed, kind == TRUTH_EXACT ? PRECISION_QUAD : PRECISION_DOUBLE, work, progress,
+                           share, &truth->pixels);
     pack_destroy(&packed);
     const struct pixel_grid *grid = &truth->pixels.grid;
     if (grid->step > 1)

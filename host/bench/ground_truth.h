@@ -30,16 +30,9 @@ static inline size_t pixel_grid_place(const struct pixel_grid *grid, size_t pixe
 struct grid_pixels {
     struct pixel_grid grid;
     double *rgb; /* 3 a pixel */
-    uint32_t *signatures;
-    struct reference_explanation *explanations; /* in quad; NULL unless asked for */
     struct reference_rays rays;
 };
 
-/* Renders pixels of the picture with the reference on all processors: the finest grid that is about so much
- * work, in rays times objects. Advances progress by `share` in all. On STATUS_DONE the caller frees the
- * pixels; otherwise they are empty, and the reason is reported. */
-enum status grid_render(const struct packed_scene *packed, enum precision precision, bool explained,
-                        double work, struct progress *progress, unsigned share, struct grid_pixels *pixels);
 void grid_pixels_destroy(struct grid_pixels *pixels);
 
 /* What errors are measured against: the reference at high precision, as far as it is affordable, which may be
@@ -57,8 +50,9 @@ enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *mo
  * light samples; or in double with converged pixel samples. */
 enum truth_kind { TRUTH_EXACT, TRUTH_OF_LIGHTS, TRUTH_OF_SAMPLES };
 
-/* Renders the truth as grid_render() does; so is what happens on failure. packed: the scene with other
- * settings, or NULL. */
+/* Renders the truth with the reference on all processors, at the finest grid of pixels that is about so much
+ * work, in rays times objects. Advances progress by `share` in all. packed: the scene with other settings, or
+ * NULL. On STATUS_DONE the caller frees the pixels; otherwise they are empty, and the reason is reported. */
 enum status ground_truth_create(const struct scene *scene, const struct packed_scene *packed,
                                 struct picture_settings settings, enum truth_kind kind, double work,
                                 struct progress *progress, unsigned share, struct ground_truth *truth);

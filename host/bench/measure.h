@@ -3,7 +3,6 @@
 
 #include "bench/bench.h"
 #include "bench/ground_truth.h"
-#include "check/judge.h"
 
 enum { BENCH_MAX_SETTINGS = 128, BENCH_MAX_RUNS = 51 }; /* there are 80 settings at most */
 
@@ -41,9 +40,9 @@ struct bench_point {
 /* What a bench may cost. */
 struct bench_effort {
     struct {
-        double quad, with_double, explained; /* explained: float, and quad with the error analysis */
-    } truth;                                 /* in rays times objects */
-    double longest_run_ms;                   /* a family ends where its next run would take longer */
+        double quad, with_double;
+    } truth;               /* in rays times objects */
+    double longest_run_ms; /* a family ends where its next run would take longer */
     struct {
         size_t least, most;      /* of a point */
         double point_ms, all_ms; /* of a point, of all points, but for their least runs */
@@ -52,7 +51,7 @@ struct bench_effort {
 };
 
 /* Of the progress bar. */
-enum { TRUTH_SHARE = 120, FILTERED_SHARE = 220, ROUNDING_SHARE = 120, START_SHARE = 240, RUNS_SHARE = 300 };
+enum { TRUTH_SHARE = 120, FILTERED_SHARE = 220, START_SHARE = 240, RUNS_SHARE = 300 };
 
 /* A bench of one scene. */
 struct bench {
@@ -65,13 +64,9 @@ struct bench {
     bool has_secondary_rays, has_quad_lights;
     unsigned deepest;                    /* bounces that a picture with all bounces may cost */
     struct ground_truth truth, filtered; /* for all families but samples; for those */
-    struct judgement rounding;           /* of float against quad */
-    size_t rounding_pixels;
     struct bench_point points[BENCH_MAX_SETTINGS];
     size_t count;
     struct image image; /* the last picture */
-    size_t differing;   /* pixels, in bits, on the device and of the reference */
-    json_t *pictures;   /* NULL unless wanted */
 };
 
 /* Puts the settings worth measuring to the points, a family's cheapest first. */

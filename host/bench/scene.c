@@ -2,17 +2,16 @@
 
 #include "base/clock.h"
 #include "bench/document.h"
-#include "check/compare.h"
 
 static const struct bench_effort full_effort = {
-    .truth = {.quad = 1e8, .with_double = 1e10, .explained = 4e7},
+    .truth = {.quad = 1e8, .with_double = 1e10},
     .longest_run_ms = 8e3,
     .runs = {.least = 5, .most = BENCH_MAX_RUNS, .point_ms = 8e3, .all_ms = 60e3},
     .whole_ms = INFINITY,
 };
 
 static const struct bench_effort quick_effort = {
-    .truth = {.quad = 12e6, .with_double = 1.6e9, .explained = 4e6},
+    .truth = {.quad = 12e6, .with_double = 1.6e9},
     .longest_run_ms = 700,
     .runs = {.least = 3, .most = 21, .point_ms = 1500, .all_ms = 9e3},
     .whole_ms = 40e3,
@@ -54,56 +53,9 @@ static enum status find_truths(struct bench *bench)
     return status;
 }
 
-/* The reference's float picture against the exact one, with the error analysis. */
-static enum status judge_rounding(struct bench *bench)
-{
-    struct grid_pixels pixels;
-    struct image image;
-    enum status status =
-        grid_render(&bench->job.packed, PRECISION_FLOAT, true, bench->effort->truth.explained,
-                    &bench->progress, ROUNDING_SHARE, &pixels);
-    if (status != STATUS_DONE)
-        return status;
-    bench->rounding_pixels = pixel_grid_count(&pixels.grid);
-    status = image_create(pixels.grid.columns, pixels.grid.rows, &image);
-    if (status == STATUS_DONE) {
-        for (size_t i = 0; i < 3 * bench->rounding_pixels; ++i)
-            image.rgb[i] = (float)pixels.rgb[i];
-        status = judge_picture(&image, pixels.signatures, pixels.explanations, &bench->rounding);
-        image_destroy(&image);
-    }
-    grid_pixels_destroy(&pixels);
-    return status == STATUS_DIFFERS ? STATUS_DONE : status; /* the result says so */
-}
-
-/* Whether device and reference agree in the scene's picture; and the pictures for the report. */
-static enum status compare_backends(struct bench *bench)
-{
-    struct vulkan_context *context = bench->options->context;
-    const struct render_plan *plan = &bench->job.plan;
-    struct rendering reference, device = {0};
-    struct comparison comparison = {0};
-    enum status status = render_on_cpu(plan, &reference);
-    if (status != STATUS_DONE)
-        return status;
-    if (context)
-        status = render_on_device(context, plan, &device);
-    if (context && status == STATUS_DONE)
-        status = image_compare(&device.image, &reference.image, NULL, &comparison);
-    bench->differing = comparison.bit_differing;
-    status = status == STATUS_DIFFERS ? STATUS_DONE : status; /* the result says so */
-    if (status == STATUS_DONE && bench->options->wants_pictures)
-        status = context ? report_pictures(&device.image, &reference.image, &bench->pictures)
-                         : report_pictures(&reference.image, NULL, &bench->pictures);
-    image_destroy(&device.image);
-    image_destroy(&reference.image);
-    return status;
-}
-
 enum status bench_scene(const struct bench_options *options, const char *path, json_t **scene)
 {
-    static enum status (*const steps[])(struct bench *) = {examine, find_truths, judge_rounding,
-                                                           bench_measure, compare_backends};
+    static enum status (*const steps[])(struct bench *) = {examine, find_truths, bench_measure};
     struct bench bench = {
         .options = options,
         .effort = options->quick ? &quick_effort : &full_effort,
@@ -113,15 +65,13 @@ enum status bench_scene(const struct bench_options *options, const char *path, j
     enum status status = job_create(&options->job, path, &bench.job);
     if (status != STATUS_DONE)
         return status;
-    progress_start(&bench.progress, path,
-                   TRUTH_SHARE + FILTERED_SHARE + ROUNDING_SHARE + START_SHARE + RUNS_SHARE,
+    progress_start(&bench.progress, path, TRUTH_SHARE + FILTERED_SHARE + START_SHARE + RUNS_SHARE,
                    options->job.plan.quiet);
     for (size_t i = 0; i < sizeof steps / sizeof *steps && status == STATUS_DONE; ++i)
         status = steps[i](&bench);
     progress_end(&bench.progress);
     if (status == STATUS_DONE)
         status = bench_describe(&bench, scene);
-    json_decref(bench.pictures);
     grid_pixels_destroy(&bench.truth.pixels);
     grid_pixels_destroy(&bench.filtered.pixels);
     job_destroy(&bench.job);

@@ -39,8 +39,7 @@ static void print_points(const json_t *scene, bool filtered, FILE *stream)
 
 static void print_conclusions(const json_t *scene, FILE *stream)
 {
-    const json_t *agreement = json_object_get(scene, "agreement"),
-                 *rounding = json_object_get(scene, "rounding"), *line;
+    const json_t *line;
     size_t i;
     json_array_foreach(json_object_get(scene, "convergence"), i, line)
     {
@@ -50,12 +49,6 @@ static void print_conclusions(const json_t *scene, FILE *stream)
                     bench_text(line, "family"), bench_number(line, "slope_from"),
                     bench_number(line, "slope_to"));
     }
-    if (json_is_object(agreement))
-        fprintf(stream, "device and reference: %.0f of %.0f pixels differ\n",
-                bench_number(agreement, "differing_pixels"), bench_number(agreement, "pixels"));
-    fprintf(stream, "rounding: relative error median %.2g, 99 %% %.2g, max %.2g; %.0f pixels unexplained\n",
-            bench_number(rounding, "median"), bench_number(rounding, "p99"), bench_number(rounding, "max"),
-            bench_number(rounding, "unexplained"));
     fputs("fastest settings with 99.9 % of the pixels within an error:\n", stream);
     json_array_foreach(json_object_get(scene, "recommendations"), i, line)
     {

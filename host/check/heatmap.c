@@ -55,13 +55,13 @@ enum status heatmap_png(unsigned width, unsigned height, const char *description
                         enum status (*encode_row)(const void *context, unsigned y, uint8_t *rgb),
                         const void *context, const char *path)
 {
-    const struct png_text texts[] = {{"Software", "vkwhitted"}, {"Description", description}};
+    const struct png_text text = {"Description", description};
     const struct png_source source = {
         .width = width,
         .height = height,
         .transfer = TRANSFER_SRGB,
-        .texts = texts,
-        .text_count = (int)(sizeof texts / sizeof texts[0]),
+        .texts = &text,
+        .text_count = 1,
         .encode_row = encode_row,
         .context = context,
     };

@@ -12,7 +12,6 @@ static enum status measure(const struct options *options, struct vulkan_context 
         .job = options->job,
         .context = context,
         .quick = options->quick,
-        .wants_pictures = options->report != NULL,
     };
     for (size_t i = 0; i < options->scene_count; ++i) {
         json_t *scene;
@@ -33,11 +32,7 @@ static enum status measure(const struct options *options, struct vulkan_context 
 /* Each of them, also where another one fails. */
 static enum status deliver(const struct options *options, json_t *document, const json_t *old)
 {
-    json_t *scene;
     enum status status = options->report ? report_write(document, options->report) : STATUS_DONE;
-    size_t i;
-    json_array_foreach(json_object_get(document, "scenes"), i, scene)
-        json_object_del(scene, "pictures"); /* for the report alone */
     if (options->csv)
         status = status_worse(status, bench_csv_write(document, options->csv));
     if (options->json)

@@ -2,7 +2,6 @@
 #define VKWHITTED_IMAGE_FORMATS_H
 
 #include <stdint.h>
-#include <stdio.h>
 
 #include "image/image.h"
 
@@ -19,19 +18,15 @@ struct png_text {
 /* An 8-bit RGB picture that is made row by row. */
 struct png_source {
     unsigned width, height;
-    enum transfer transfer; /* of the code values, for the file to say */
-    const struct png_text *texts;
+    enum transfer transfer;       /* of the code values, for the file to say */
+    const struct png_text *texts; /* beside that of the program */
     int text_count;
     enum status (*encode_row)(const void *context, unsigned y, uint8_t *rgb); /* 3 * width bytes */
     const void *context;
 };
 
-/* Writes the picture to the stream, which goes by that name in messages. STATUS_UNABLE where it cannot be
- * written, reported unless the stream has an error, which is its owner's to report, or what a row fails with;
- * what the stream still holds back has yet to be flushed. */
-enum status png_encode(const struct png_source *source, FILE *stream, const char *name);
-
-/* Writes the picture to a file, whole or not at all. */
+/* Writes the picture to a file, whole or not at all. STATUS_UNABLE (reported) where it cannot be written, or
+ * what a row fails with. */
 enum status png_write(const struct png_source *source, const char *path);
 
 #endif

@@ -10,8 +10,7 @@
 #include "image/srgb.h"
 
 struct png_output {
-    FILE *stream;
-    const char *name; /* for messages */
+    struct output_file file;
     const struct png_source *source;
     png_structp png;
     png_infop info;
@@ -21,15 +20,15 @@ struct png_output {
 static void on_error(png_structp png, png_const_charp message)
 {
     const struct png_output *output = png_get_error_ptr(png);
-    if (!ferror(output->stream))
-        log_error("%s: cannot write PNG: %s", output->name, message);
+    if (output->file.error == 0) /* which is reported when the file is closed */
+        log_error("%s: cannot write PNG: %s", output->file.path, message);
     png_longjmp(png, 1);
 }
 
 static void on_warning(png_structp png, png_const_charp message)
 {
     const struct png_output *output = png_get_error_ptr(png);
-    log_warning("%s: PNG: %s", output->name, message);
+    log_warning("%s: PNG: %s", output->file.path, message);
 }
 
 static bool is_ascii(const char *text)
@@ -41,19 +40,14 @@ static bool is_ascii(const char *text)
 }
 
 /* tEXt is Latin-1: what is not ASCII goes into iTXt, which is UTF-8. */
-static void put_texts(struct png_output *output)
+static void put_text(struct png_output *output, const char *key, const char *value)
 {
-    for (int i = 0; i < output->source->text_count; i++) {
-        const struct png_text *given = &output->source->texts[i];
-        if (!given->text)
-            continue;
-        const png_text text = {
-            .compression = is_ascii(given->text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE,
-            .key = (char *)(uintptr_t)given->key,
-            .text = (char *)(uintptr_t)given->text,
-        };
-        png_set_text(output->png, output->info, &text, 1);
-    }
+    const png_text text = {
+        .compression = is_ascii(value) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE,
+        .key = (char *)(uintptr_t)key,
+        .text = (char *)(uintptr_t)value,
+    };
+    png_set_text(output->png, output->info, &text, 1);
 }
 
 /* Z_RLE looks for runs only and leaves the rest to Huffman coding; after the Paeth filter that is as small as
@@ -68,7 +62,10 @@ static void put_header(struct png_output *output)
         png_set_sRGB_gAMA_and_cHRM(png, output->info, PNG_sRGB_INTENT_PERCEPTUAL);
     else
         png_set_gAMA_fixed(png, output->info, PNG_GAMMA_LINEAR);
-    put_texts(output);
+    put_text(output, "Software", "vkwhitted");
+    for (int i = 0; i < source->text_count; ++i)
+        if (source->texts[i].text)
+            put_text(output, source->texts[i].key, source->texts[i].text);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
     png_set_compression_strategy(png, Z_RLE);
     png_set_compression_level(png, 1);
@@ -80,7 +77,7 @@ static enum status encode(struct png_output *output)
 {
     if (setjmp(png_jmpbuf(output->png)))
         return STATUS_UNABLE;
-    png_init_io(output->png, output->stream);
+    png_init_io(output->png, output->file.stream);
     put_header(output);
     for (unsigned y = 0; y < output->source->height; y++) {
         const enum status status = output->source->encode_row(output->source->context, y, output->row);
@@ -92,31 +89,26 @@ static enum status encode(struct png_output *output)
     return STATUS_DONE;
 }
 
-enum status png_encode(const struct png_source *source, FILE *stream, const char *name)
+enum status png_write(const struct png_source *source, const char *path)
 {
-    struct png_output output = {.stream = stream, .name = name, .source = source};
-    enum status status = STATUS_UNABLE;
+    struct png_output output = {.source = source};
+    enum status status = output_file_open(path, &output.file);
+    if (status != STATUS_DONE)
+        return status;
     output.row = malloc((size_t)source->width * 3);
     output.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &output, on_error, on_warning);
     output.info = output.png ? png_create_info_struct(output.png) : NULL;
-    if (output.row && output.info)
+    if (output.row && output.info) {
         status = encode(&output);
-    else
-        log_error("%s: no memory to write PNG", name);
+    } else {
+        log_error("%s: no memory to write PNG", path);
+        status = STATUS_UNABLE;
+    }
     png_destroy_write_struct(&output.png, &output.info);
     free(output.row);
-    return status;
-}
-
-enum status png_write(const struct png_source *source, const char *path)
-{
-    struct output_file file;
-    enum status status = output_file_open(path, &file);
-    if (status == STATUS_DONE)
-        status = png_encode(source, file.stream, path);
-    if (status == STATUS_DONE || file.error != 0) /* which is reported there */
-        return output_file_commit(&file);
-    output_file_abandon(&file);
+    if (status == STATUS_DONE || output.file.error != 0)
+        return output_file_commit(&output.file);
+    output_file_abandon(&output.file);
     return status;
 }
 
@@ -149,8 +141,10 @@ enum status image_write_png(const struct image_rows *rows, const char *path,
     char max_bounces[16];
     snprintf(max_bounces, sizeof max_bounces, "%u", metadata->max_bounces);
     const struct png_text texts[] = {
-        {"Software", "vkwhitted"},          {"scene", metadata->scene},  {"device", metadata->device},
-        {"precision", metadata->precision}, {"maxBounces", max_bounces},
+        {"scene", metadata->scene},
+        {"device", metadata->device},
+        {"precision", metadata->precision},
+        {"maxBounces", max_bounces},
     };
     const struct png_source source = {
         .width = rows->width,
