@@ -7,16 +7,7 @@
 #include "base/text_file.h"
 #include "image/exr_error.h"
 
-struct exr_input {
-    const char *path;
-    exr_context_t context;
-    exr_decode_pipeline_t pipeline;
-    float *values;               /* of the chunk that was read last */
-    size_t room;                 /* values */
-    const char *const *channels; /* that it holds */
-    int part;                    /* of the pipeline; -1: there is none */
-    int first, count, width;     /* of the chunk; count 0: there is none */
-};
+enum { LARGEST_TILE = 4096 }; /* pixels a side */
 
 static enum status refuse(const struct exr_input *input)
 {
@@ -24,57 +15,61 @@ static enum status refuse(const struct exr_input *input)
     return STATUS_REFUSED;
 }
 
-enum status exr_input_open(const char *path, struct exr_input **input)
+static int64_t on_read(exr_const_context_t context, void *user_data, void *bytes, uint64_t size,
+                       uint64_t offset, exr_stream_error_func_ptr_t report_error)
+{
+    (void)context;
+    (void)report_error;
+    const struct exr_input *input = user_data;
+    const uint64_t left = offset < input->size ? input->size - offset : 0;
+    const uint64_t read = size < left ? size : left; /* the library sees that it is less than it needs */
+    if (read > 0)
+        memcpy(bytes, input->bytes + offset, read);
+    return (int64_t)read;
+}
+
+static int64_t on_size(exr_const_context_t context, void *user_data)
+{
+    (void)context;
+    return (int64_t)((const struct exr_input *)user_data)->size;
+}
+
+enum status exr_input_open(const char *path, const void *bytes, size_t size, struct exr_input *input)
 {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     initializer.error_handler_fn = exr_error_keep;
-    *input = NULL;
-    off_t size;
-    const int file = input_file_open(path, true, &size);
-    if (file < 0)
-        return input_file_refuse(path);
-    close(file);
-    struct exr_input *opened = calloc(1, sizeof *opened);
-    if (!opened) {
-        log_error("%s: no memory to read it", path);
-        return STATUS_UNABLE;
+    initializer.max_tile_width = initializer.max_tile_height = LARGEST_TILE;
+    *input = (struct exr_input){.path = path, .bytes = bytes, .size = size};
+    if (bytes) {
+        initializer.user_data = input;
+        initializer.read_fn = on_read;
+        initializer.size_fn = on_size;
+    } else {
+        off_t file_size;
+        const int file = input_file_open(path, true, &file_size);
+        if (file < 0)
+            return input_file_refuse(path);
+        close(file);
     }
-    *opened = (struct exr_input){.path = path, .part = -1};
     exr_error_clear();
-    if (exr_succeeded(exr_start_read(&opened->context, path, &initializer))) {
-        *input = opened;
-        return STATUS_DONE;
-    }
-    enum status status = refuse(opened);
-    free(opened);
-    return status;
+    return exr_succeeded(exr_start_read(&input->context, path, &initializer)) ? STATUS_DONE : refuse(input);
 }
 
 static void end_part(struct exr_input *input)
 {
-    if (input->part >= 0)
+    if (input->pipeline.channels)
         exr_decoding_destroy(input->context, &input->pipeline);
     input->pipeline = (exr_decode_pipeline_t)EXR_DECODE_PIPELINE_INITIALIZER;
-    input->part = -1;
     input->count = 0;
 }
 
-void exr_input_close(struct exr_input **pointer)
+void exr_input_close(struct exr_input *input)
 {
-    struct exr_input *input = *pointer;
-    *pointer = NULL;
-    if (!input)
-        return;
     end_part(input);
-    exr_finish(&input->context);
+    if (input->context)
+        exr_finish(&input->context);
     free(input->values);
-    free(input);
-}
-
-int exr_input_parts(const struct exr_input *input)
-{
-    int count = 0;
-    return exr_succeeded(exr_get_count(input->context, &count)) ? count : 0;
+    *input = (struct exr_input){0};
 }
 
 static bool read_box(const exr_attr_box2i_t *box, struct window *window)
@@ -97,49 +92,35 @@ bool exr_input_windows(const struct exr_input *input, int part, struct window *d
            read_box(&data_box, data) && read_box(&display_box, display);
 }
 
-const char *exr_input_text(const struct exr_input *input, const char *name)
-{
-    const exr_attribute_t *attribute;
-    return exr_get_attribute_by_name(input->context, 0, name, &attribute) == EXR_ERR_SUCCESS &&
-                   attribute->type == EXR_ATTR_STRING
-               ? attribute->string->str
-               : NULL;
-}
-
-int exr_input_number(const struct exr_input *input, const char *name)
-{
-    const exr_attribute_t *attribute;
-    return exr_get_attribute_by_name(input->context, 0, name, &attribute) == EXR_ERR_SUCCESS &&
-                   attribute->type == EXR_ATTR_INT
-               ? attribute->i
-               : 0;
-}
-
-/* Has the pipeline write the named channels to the buffer, and leave out the others. */
-static bool point_to_channels(struct exr_input *input, const char *const *channels, int channel_count)
+/* Has the pipeline write the wanted channels to the values, from that column of the first row on, and leave
+ * out the others. */
+static bool point_to_channels(struct exr_input *input, size_t column)
 {
     int found = 0;
     for (int c = 0; c < input->pipeline.channel_count; ++c) {
         exr_coding_channel_info_t *channel = &input->pipeline.channels[c];
         channel->decode_to_ptr = NULL;
-        for (int i = 0; i < channel_count; ++i)
-            if (strcmp(channel->channel_name, channels[i]) == 0 && channel->x_samples == 1 &&
+        for (int i = 0; i < input->channel_count; ++i)
+            if (strcmp(channel->channel_name, input->channels[i]) == 0 && channel->x_samples == 1 &&
                 channel->y_samples == 1) {
-                channel->decode_to_ptr = (uint8_t *)(input->values + i);
+                channel->decode_to_ptr =
+                    (uint8_t *)(input->values + column * (size_t)input->channel_count + i);
                 channel->user_data_type = EXR_PIXEL_FLOAT;
                 channel->user_bytes_per_element = sizeof(float);
-                channel->user_pixel_stride = channel_count * (int32_t)sizeof(float);
-                channel->user_line_stride = input->width * channel->user_pixel_stride;
+                channel->user_pixel_stride = input->channel_count * (int32_t)sizeof(float);
+                channel->user_line_stride = (int32_t)input->width * channel->user_pixel_stride;
                 ++found;
             }
     }
-    if (found < channel_count)
+    if (found < input->channel_count)
         exr_error_keep(input->context, EXR_ERR_INVALID_ARGUMENT, "it lacks a channel");
-    return found == channel_count;
+    return found == input->channel_count;
 }
 
-static bool require_room(struct exr_input *input, size_t values)
+/* Makes room for so many rows. */
+static bool require_rows(struct exr_input *input, int rows)
 {
+    const size_t values = (size_t)rows * input->width * (size_t)input->channel_count;
     if (values <= input->room)
         return true;
     free(input->values);
@@ -148,49 +129,87 @@ static bool require_room(struct exr_input *input, size_t values)
     return input->values;
 }
 
-/* Reads the chunk that holds the row. */
-static bool read_chunk(struct exr_input *input, int part, int y, const char *const *channels,
-                       int channel_count)
+/* Decodes a chunk to that column of the rows, for which there is room. */
+static bool decode(struct exr_input *input, const exr_chunk_info_t *chunk, size_t column, int rows)
 {
-    exr_chunk_info_t chunk;
-    exr_storage_t storage;
-    if (!exr_succeeded(exr_get_storage(input->context, part, &storage)))
-        return false;
-    if (storage != EXR_STORAGE_SCANLINE) {
-        exr_error_keep(input->context, EXR_ERR_SCAN_TILE_MIXEDAPI, "it is not stored in scan lines");
+    exr_decode_pipeline_t *pipeline = &input->pipeline;
+    const bool is_first = !pipeline->channels;
+    if (column + (size_t)chunk->width > input->width || chunk->height > rows) {
+        exr_error_keep(input->context, EXR_ERR_BAD_CHUNK_LEADER, "a chunk reaches out of the picture");
         return false;
     }
-    if (!exr_succeeded(exr_read_scanline_chunk_info(input->context, part, y, &chunk)) ||
-        !require_room(input, (size_t)chunk.width * (size_t)chunk.height * (size_t)channel_count))
-        return false;
-    const bool goes_on = part == input->part && channels == input->channels;
-    if (!goes_on)
-        end_part(input);
-    input->count = 0;
-    if (!exr_succeeded(goes_on ? exr_decoding_update(input->context, part, &chunk, &input->pipeline)
-                               : exr_decoding_initialize(input->context, part, &chunk, &input->pipeline)))
-        return false;
-    input->part = part;
-    input->width = chunk.width;
-    input->channels = channels;
-    if (!point_to_channels(input, channels, channel_count) ||
-        !(goes_on ||
-          exr_succeeded(exr_decoding_choose_default_routines(input->context, part, &input->pipeline))) ||
-        !exr_succeeded(exr_decoding_run(input->context, part, &input->pipeline)))
+    return exr_succeeded(is_first ? exr_decoding_initialize(input->context, input->part, chunk, pipeline)
+                                  : exr_decoding_update(input->context, input->part, chunk, pipeline)) &&
+           point_to_channels(input, column) &&
+           (!is_first ||
+            exr_succeeded(exr_decoding_choose_default_routines(input->context, input->part, pipeline))) &&
+           exr_succeeded(exr_decoding_run(input->context, input->part, pipeline));
+}
+
+static bool decode_scanlines(struct exr_input *input, int y)
+{
+    exr_chunk_info_t chunk;
+    if (!exr_succeeded(exr_read_scanline_chunk_info(input->context, input->part, y, &chunk)) ||
+        !require_rows(input, chunk.height) || !decode(input, &chunk, 0, chunk.height))
         return false;
     input->first = chunk.start_y;
     input->count = chunk.height;
     return true;
 }
 
-enum status exr_input_read(struct exr_input *input, int part, unsigned y, const char *const *channels,
+static bool decode_tiles(struct exr_input *input, int y, const exr_attr_box2i_t *window)
+{
+    uint32_t width, height;
+    exr_tile_level_mode_t levels;
+    exr_tile_round_mode_t rounding;
+    if (!exr_succeeded(
+            exr_get_tile_descriptor(input->context, input->part, &width, &height, &levels, &rounding)))
+        return false;
+    const int row = (int)((int64_t)y - window->min.y) / (int)height;
+    const int64_t first = window->min.y + (int64_t)row * height, left = (int64_t)window->max.y + 1 - first;
+    const int rows = left < height ? (int)left : (int)height;
+    bool decoded = require_rows(input, rows);
+    for (int column = 0; decoded && (size_t)column * width < input->width; ++column) {
+        exr_chunk_info_t chunk;
+        decoded =
+            exr_succeeded(exr_read_tile_chunk_info(input->context, input->part, column, row, 0, 0, &chunk)) &&
+            decode(input, &chunk, (size_t)column * width, rows);
+    }
+    input->first = (int)first;
+    input->count = decoded ? rows : 0;
+    return decoded;
+}
+
+/* Decodes the chunk, or the row of tiles, that holds row y. */
+static bool decode_rows(struct exr_input *input, int y)
+{
+    exr_storage_t storage;
+    exr_attr_box2i_t window;
+    input->count = 0;
+    if (!exr_succeeded(exr_get_storage(input->context, input->part, &storage)) ||
+        !exr_succeeded(exr_get_data_window(input->context, input->part, &window)))
+        return false;
+    input->width = (size_t)((int64_t)window.max.x - window.min.x + 1);
+    if (storage == EXR_STORAGE_SCANLINE)
+        return decode_scanlines(input, y);
+    if (storage == EXR_STORAGE_TILED)
+        return decode_tiles(input, y, &window);
+    exr_error_keep(input->context, EXR_ERR_INVALID_ARGUMENT, "expected a flat picture, is a deep one");
+    return false;
+}
+
+enum status exr_input_read(struct exr_input *input, int part, int y, const char *const *channels,
                            int channel_count, const float **row)
 {
-    const bool there = part == input->part && channels == input->channels && (int)y >= input->first &&
-                       (int)y < input->first + input->count;
     exr_error_clear();
-    if (!there && !read_chunk(input, part, (int)y, channels, channel_count))
+    if (part != input->part || channels != input->channels)
+        end_part(input);
+    input->part = part;
+    input->channels = channels;
+    input->channel_count = channel_count;
+    const bool there = y >= input->first && y - input->first < input->count;
+    if (!there && !decode_rows(input, y))
         return refuse(input);
-    *row = input->values + (size_t)((int)y - input->first) * (size_t)input->width * (size_t)channel_count;
+    *row = input->values + (size_t)(y - input->first) * input->width * (size_t)channel_count;
     return STATUS_DONE;
 }

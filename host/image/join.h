@@ -1,19 +1,13 @@
 #ifndef VKWHITTED_IMAGE_JOIN_H
 #define VKWHITTED_IMAGE_JOIN_H
 
-#include "image/tile.h"
+#include "image/image.h"
 
-/* The tiles of a picture, in files that render --tile has written: of each that is read a chunk of rows at a
- * time, so that the picture may be larger than memory. */
-struct join;
-
-/* Reads the headers of the tiles. STATUS_REFUSED where they are not all of one picture's tiles, each once:
- * what is missing, doubled or of another picture is reported. The paths must outlive it. */
-enum status join_create(const char *const *paths, size_t count, struct join **join);
-void join_destroy(struct join **join);
-
-/* The joined picture and what its file is to say, but for the transfer function. */
-struct image_rows join_rows(struct join *join);
-struct image_metadata join_metadata(const struct join *join);
+/* Writes the picture whose tiles are in these files, as render --tile has written them, to each of the
+ * outputs, each whole or not at all. Tiles are read a chunk of rows at a time, so the picture may be larger
+ * than memory. STATUS_REFUSED where the files are not all of one picture's tiles, each once: what is missing,
+ * doubled or of another picture is reported. */
+enum status join_tiles(const char *const *paths, size_t count, const char *const *outputs,
+                       size_t output_count, enum transfer transfer);
 
 #endif
