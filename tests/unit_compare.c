@@ -137,14 +137,11 @@ static void test_sizes_must_be_the_same(void **state)
     char line[256];
     test_messages_begin();
     enum status status = image_compare(&a, &b, NULL, &comparison);
-    enum status heat_status = heatmap_write(&a, &b, "heat.png");
     int lines = test_messages_end(line);
     assert_int_equal(status, STATUS_REFUSED);
-    assert_int_equal(heat_status, STATUS_REFUSED);
-    assert_int_equal(lines, 2);
+    assert_int_equal(lines, 1);
     assert_non_null(strstr(line, "3x2"));
     assert_non_null(strstr(line, "2x3"));
-    assert_int_equal(test_folder_files(0), 0);
     image_destroy(&a);
     image_destroy(&b);
 }
@@ -203,7 +200,8 @@ static void test_heatmap(void **state)
         memcpy(a.rgb + (COUNT + i) * 3, pixels[i].a, sizeof pixels[i].a);
         memcpy(b.rgb + (COUNT + i) * 3, pixels[i].b, sizeof pixels[i].b);
     }
-    assert_int_equal(heatmap_write(&a, &b, "heat.png"), STATUS_DONE);
+    const struct heatmap heatmap = difference_heatmap(&(struct image_pair){&a, &b});
+    assert_int_equal(heatmap_write(&heatmap, "heat.png"), STATUS_DONE);
 
     uint8_t found[2][COUNT][3];
     png_image png = {.version = PNG_IMAGE_VERSION};
@@ -227,7 +225,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values),
         cmocka_unit_test(test_pixels_are_counted_and_the_worst_is_found),
-        TEST_IN_FOLDER(test_sizes_must_be_the_same),
+        cmocka_unit_test(test_sizes_must_be_the_same),
         cmocka_unit_test(test_precisions_must_be_the_same),
         TEST_IN_FOLDER(test_heatmap),
     };

@@ -58,7 +58,7 @@ static void test_every_character(void **state)
         assert_int_equal(escape_character(text, size, shown), size);
         escaped += strcmp(shown, text) != 0;
     }
-    assert_int_equal(escaped, 31 + 33 + 1 + 2 + 7 + 4);
+    assert_int_equal(escaped, 31 + 33 + 1 + 2 + 7 + 4 + 2);
 }
 
 int main(void)

@@ -30,11 +30,13 @@ static bool decode(const char *text, size_t size, uint32_t *code)
     return *code >= least[size] && *code <= 0x10FFFF && (*code < 0xD800 || *code > 0xDFFF);
 }
 
-/* C0, DEL and C1; the marks of Unicode's bidirectional algorithm (UAX #9); separators of lines. */
+/* C0, DEL and C1; the marks of Unicode's bidirectional algorithm (UAX #9); separators of lines; what is never
+ * a character, and not allowed in XML. */
 static bool is_control(uint32_t code)
 {
     return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x61C || code == 0x200E ||
-           code == 0x200F || (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+           code == 0x200F || (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) ||
+           code == 0xFFFE || code == 0xFFFF;
 }
 
 size_t escape_character(const char *text, size_t length, char shown[ESCAPED_SIZE])

@@ -37,15 +37,6 @@ static void note(struct worst *worst, double error, size_t index)
         *worst = (struct worst){error, index};
 }
 
-bool image_same_size(const struct image *a, const struct image *b)
-{
-    if (a->width == b->width && a->height == b->height)
-        return true;
-    log_error("cannot compare a picture of %ux%u pixels with one of %ux%u", a->width, a->height, b->width,
-              b->height);
-    return false;
-}
-
 static double value_at(const struct image *image, size_t index)
 {
     return image->rgb64 ? image->rgb64[index] : (double)image->rgb[index];
@@ -55,8 +46,11 @@ enum status image_compare(const struct image *a, const struct image *b, const st
                           struct comparison *comparison)
 {
     *comparison = (struct comparison){0};
-    if (!image_same_size(a, b))
+    if (a->width != b->width || a->height != b->height) {
+        log_error("cannot compare a picture of %ux%u pixels with one of %ux%u", a->width, a->height, b->width,
+                  b->height);
         return STATUS_REFUSED;
+    }
     if (!a->rgb64 != !b->rgb64) {
         log_error("cannot compare a picture in double precision with one in float");
         return STATUS_REFUSED;

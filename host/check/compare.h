@@ -33,9 +33,6 @@ struct comparison {
 enum status image_compare(const struct image *a, const struct image *b, const struct tolerance *tolerance,
                           struct comparison *comparison);
 
-/* Whether the pictures have the same size; reports it if not. */
-bool image_same_size(const struct image *a, const struct image *b);
-
 /* Prints in a line how a scene's pictures compare, of which so many pixels are allowed to differ. */
 void comparison_print(const struct comparison *comparison, const char *scene, size_t allowed);
 

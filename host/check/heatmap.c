@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "check/compare.h"
 #include "image/formats.h"
 
 void viridis(double level, uint8_t *rgb)
@@ -38,42 +37,44 @@ void heatmap_color(const float *a, const float *b, uint8_t *rgb)
     viridis(relative_error > 0.0 ? 1.0 + log2(relative_error) / 24.0 : 0.0, rgb);
 }
 
-struct pair {
-    const struct image *a, *b;
-};
-
-static enum status encode_difference(const void *context, unsigned y, uint8_t *rgb)
+static void color_difference(const void *context, unsigned x, unsigned y, uint8_t rgb[static 3])
 {
-    const struct pair *pair = context;
-    size_t start = (size_t)y * pair->a->width * 3;
-    for (size_t x = 0; x < pair->a->width; x++)
-        heatmap_color(pair->a->rgb + start + x * 3, pair->b->rgb + start + x * 3, rgb + x * 3);
+    const struct image_pair *pair = context;
+    const size_t first = 3 * ((size_t)y * pair->a->width + x);
+    heatmap_color(pair->a->rgb + first, pair->b->rgb + first, rgb);
+}
+
+struct heatmap difference_heatmap(const struct image_pair *pair)
+{
+    return (struct heatmap){
+        .width = pair->a->width,
+        .height = pair->a->height,
+        .description = "largest relative error of a pixel's channels, logarithmic: violet 2^-24, blue 2^-18, "
+                       "teal 2^-12, green 2^-6, yellow 1; black: same bits; white: not finite",
+        .color = color_difference,
+        .context = pair,
+    };
+}
+
+static enum status encode_row(const void *context, unsigned y, uint8_t *rgb)
+{
+    const struct heatmap *heatmap = context;
+    for (unsigned x = 0; x < heatmap->width; ++x)
+        heatmap->color(heatmap->context, x, y, rgb + 3 * (size_t)x);
     return STATUS_DONE;
 }
 
-enum status heatmap_png(unsigned width, unsigned height, const char *description,
-                        enum status (*encode_row)(const void *context, unsigned y, uint8_t *rgb),
-                        const void *context, const char *path)
+enum status heatmap_write(const struct heatmap *heatmap, const char *path)
 {
-    const struct png_text text = {"Description", description};
+    const struct png_text text = {"Description", heatmap->description};
     const struct png_source source = {
-        .width = width,
-        .height = height,
+        .width = heatmap->width,
+        .height = heatmap->height,
         .transfer = TRANSFER_SRGB,
         .texts = &text,
         .text_count = 1,
         .encode_row = encode_row,
-        .context = context,
+        .context = heatmap,
     };
     return png_write(&source, path);
-}
-
-enum status heatmap_write(const struct image *a, const struct image *b, const char *path)
-{
-    if (!image_same_size(a, b))
-        return STATUS_REFUSED;
-    return heatmap_png(a->width, a->height,
-                       "largest relative error of a pixel's channels, logarithmic: violet 2^-24, blue 2^-18, "
-                       "teal 2^-12, green 2^-6, yellow 1; black: same bits; white: not finite",
-                       encode_difference, &(struct pair){a, b}, path);
 }

@@ -9,11 +9,16 @@
  * quarters; perceived lightness grows evenly along it. */
 void viridis(double level, uint8_t *rgb);
 
-/* Writes an 8-bit PNG (whole or not at all, see output_file.h) that is made row by row; the file says the
- * description. STATUS_UNABLE (reported) where it cannot be written. */
-enum status heatmap_png(unsigned width, unsigned height, const char *description,
-                        enum status (*encode_row)(const void *context, unsigned y, uint8_t *rgb),
-                        const void *context, const char *path);
+/* A picture of how right another one is. */
+struct heatmap {
+    unsigned width, height;
+    const char *description; /* which the file says, too */
+    void (*color)(const void *context, unsigned x, unsigned y, uint8_t rgb[static 3]);
+    const void *context;
+};
+
+/* Writes an 8-bit PNG, whole or not at all. STATUS_UNABLE (reported) where it cannot be written. */
+enum status heatmap_write(const struct heatmap *heatmap, const char *path);
 
 /* The 8-bit colour of the difference between two pixels: the largest relative error over the channels,
  * |a - b| / max(|a|, |b|), on a logarithmic scale in the colours of viridis. Dark violet is 2^-24 (half a
@@ -21,8 +26,10 @@ enum status heatmap_png(unsigned width, unsigned height, const char *description
  * the same bits; white: not the same bits, and not finite on one side at least. */
 void heatmap_color(const float *a, const float *b, uint8_t *rgb);
 
-/* Writes the colours of the pixels' differences with heatmap_png(); STATUS_REFUSED (reported) where the sizes
- * differ. */
-enum status heatmap_write(const struct image *a, const struct image *b, const char *path);
+/* These colours for pictures of the same size; the pair is the context. */
+struct image_pair {
+    const struct image *a, *b;
+};
+struct heatmap difference_heatmap(const struct image_pair *pair);
 
 #endif

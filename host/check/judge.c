@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "base/statistics.h"
-#include "check/heatmap.h"
 
 static const double relative_floor = 1e-3, tight = 1e-2;
 
@@ -115,38 +114,29 @@ json_t *judgement_json(const struct judgement *judgement, const char *scene, con
                      (json_int_t)judgement->unexplained);
 }
 
-struct judged_picture {
-    const struct image *image;
-    const struct reference_explanation *explanations;
-};
-
-/* Of an error or a bound, relative to what is exact. */
-static void encode_relative(double relative, uint8_t *rgb)
+/* Left the error, right the bound on it, relative to what is exact. */
+static void color(const void *context, unsigned x, unsigned y, uint8_t rgb[static 3])
 {
+    const struct judged_picture *picture = context;
+    const unsigned width = picture->image->width;
+    const size_t i = (size_t)y * width + x % width;
+    const struct reference_explanation *exact = &picture->explanations[i];
+    double relative = 0;
+    if (x < width)
+        relative = judge_pixel(picture->image->rgb + 3 * i, exact).relative;
+    for (int c = 0; c < 3 && x >= width; ++c)
+        relative = fmax(relative, exact->bound[c] / fmax(fabs(exact->rgb[c]), relative_floor));
     viridis(1 + log2(relative) / 24, rgb);
 }
 
-static enum status encode_row(const void *context, unsigned y, uint8_t *rgb)
+struct heatmap judgement_heatmap(const struct judged_picture *picture)
 {
-    const struct judged_picture *picture = context;
-    size_t width = picture->image->width;
-    for (size_t x = 0; x < width; ++x) {
-        const size_t i = y * width + x;
-        const struct reference_explanation *exact = &picture->explanations[i];
-        double bound = 0;
-        for (int c = 0; c < 3; ++c)
-            bound = fmax(bound, exact->bound[c] / fmax(fabs(exact->rgb[c]), relative_floor));
-        encode_relative(judge_pixel(picture->image->rgb + 3 * i, exact).relative, rgb + 3 * x);
-        encode_relative(bound, rgb + 3 * (width + x));
-    }
-    return STATUS_DONE;
-}
-
-enum status judgement_heatmap(const struct image *image, const struct reference_explanation *explanations,
-                              const char *path)
-{
-    return heatmap_png(
-        2 * image->width, image->height,
-        "left: relative error, right: relative bound on it; violet 2^-24 to yellow 1, logarithmic",
-        encode_row, &(struct judged_picture){image, explanations}, path);
+    return (struct heatmap){
+        .width = 2 * picture->image->width,
+        .height = picture->image->height,
+        .description =
+            "left: relative error, right: relative bound on it; violet 2^-24 to yellow 1, logarithmic",
+        .color = color,
+        .context = picture,
+    };
 }

@@ -2,7 +2,7 @@
 #define VKWHITTED_CHECK_JUDGE_H
 
 #include "base/json.h"
-#include "image/image.h"
+#include "check/heatmap.h"
 #include "reference.h"
 
 /* A pixel's errors, the largest over its channels. */
@@ -40,9 +40,12 @@ void judgement_print(const struct judgement *judgement, const char *scene, const
 json_t *judgement_json(const struct judgement *judgement, const char *scene, const char *precision,
                        size_t allowed);
 
-/* Writes an 8-bit PNG with two pictures side by side: the pixels' relative errors and, likewise, their
- * bounds, 2^-24 dark to 1 bright, both logarithmic in the colours of viridis. */
-enum status judgement_heatmap(const struct image *image, const struct reference_explanation *explanations,
-                              const char *path);
+/* Two pictures side by side: the pixels' relative errors and, likewise, their bounds, 2^-24 dark to 1 bright,
+ * both logarithmic in the colours of viridis. */
+struct judged_picture {
+    const struct image *image;
+    const struct reference_explanation *explanations;
+};
+struct heatmap judgement_heatmap(const struct judged_picture *picture);
 
 #endif

@@ -1,39 +1,22 @@
 #include "check/junit.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/escape.h"
 #include "base/output_file.h"
-
-/* The bytes of the character that begins the text; 0: none begins there, or none that XML can hold. */
-static size_t character_length(const char *text)
-{
-    static const uint32_t least[] = {0, 0x80, 0x800, 0x10000};
-    const unsigned char *bytes = (const unsigned char *)text;
-    const size_t more = bytes[0] < 0x80 ? 0 : bytes[0] >> 5 == 6 ? 1 : bytes[0] >> 4 == 14 ? 2 : 3;
-    if (more == 0)
-        return bytes[0] >= ' ';
-    uint32_t code = bytes[0] & (0x3fu >> more);
-    for (size_t i = 1; i <= more; ++i) {
-        if (bytes[i] >> 6 != 2)
-            return 0;
-        code = code << 6 | (bytes[i] & 0x3fu);
-    }
-    const bool is_none = bytes[0] >= 0xf8 || code < least[more] || code > 0x10ffff ||
-                         (code >= 0xd800 && code < 0xe000) || code == 0xfffe || code == 0xffff;
-    return is_none ? 0 : more + 1;
-}
 
 /* Writes the text as a part of an attribute's value. */
 static void put_text(FILE *stream, const char *text)
 {
-    for (size_t length; *text; text += length > 0 ? length : 1) {
-        length = character_length(text);
-        if (length == 0 || strchr("&<>\"", *text))
-            fprintf(stream, length > 0 ? "&#%d;" : "?", *text);
+    char shown[ESCAPED_SIZE];
+    size_t left = strlen(text);
+    for (size_t taken; left > 0; text += taken, left -= taken) {
+        taken = escape_character(text, left, shown);
+        if (strchr("&<>\"", *shown))
+            fprintf(stream, "&#%d;", *shown);
         else
-            fwrite(text, 1, length, stream);
+            fputs(shown, stream);
     }
 }
 

@@ -20,8 +20,8 @@ void junit_create(struct junit *junit);
 void junit_add(struct junit *junit, const char *scene, double seconds, enum status outcome,
                const char *reason);
 
-/* Writes what ran on the device to the file, or where that is NULL nowhere, and destroys the report. Of names
- * that are not UTF-8 a question mark stands for each such byte. STATUS_UNABLE (reported). */
+/* Writes what ran on the device to the file, or where that is NULL nowhere, and destroys the report. Names
+ * are escaped as they are on a terminal. STATUS_UNABLE (reported). */
 enum status junit_write(struct junit *junit, const char *device, const char *path);
 
 #endif

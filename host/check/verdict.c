@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "check/heatmap.h"
-
 /* Relative errors are those of values of this size at least. */
 static const double relative_floor = 1e-3;
 
@@ -124,36 +122,30 @@ json_t *verdicts_json(const struct verdicts *verdicts, const char *scene, const 
         json_real_or_null(verdicts->margin));
 }
 
-struct compared_picture {
-    const struct read_image *picture;
-    const struct reference_explanation *explanations;
-    const struct tolerance *tolerance;
-};
-
-static enum status encode_row(const void *context, unsigned y, uint8_t *rgb)
+static void color(const void *context, unsigned x, unsigned y, uint8_t rgb[static 3])
 {
     static const uint8_t blue[3] = {40, 70, 255};
     const struct compared_picture *compared = context;
-    for (size_t x = 0; x < compared->picture->width; ++x) {
-        const size_t i = (size_t)y * compared->picture->width + x;
-        const struct pixel_verdict pixel =
-            find_verdict(compared->picture->rgb + 3 * i, &compared->explanations[i], compared->tolerance);
-        memset(rgb + 3 * x, 0, 3);
-        if (pixel.verdict == VERDICT_NEAR_DECISION)
-            memcpy(rgb + 3 * x, blue, 3);
-        else if (pixel.verdict != VERDICT_RIGHT)
-            viridis(1 + log2(pixel.relative) / 24, rgb + 3 * x);
-    }
-    return STATUS_DONE;
+    const size_t i = (size_t)y * compared->picture->width + x;
+    const struct pixel_verdict pixel =
+        find_verdict(compared->picture->rgb + 3 * i, &compared->explanations[i], compared->tolerance);
+    if (pixel.verdict == VERDICT_RIGHT)
+        memset(rgb, 0, 3);
+    else if (pixel.verdict == VERDICT_NEAR_DECISION)
+        memcpy(rgb, blue, 3);
+    else
+        viridis(1 + log2(pixel.relative) / 24, rgb);
 }
 
-enum status verdicts_heatmap(const struct read_image *picture,
-                             const struct reference_explanation *explanations,
-                             const struct tolerance *tolerance, const char *path)
+struct heatmap verdicts_heatmap(const struct compared_picture *compared)
 {
-    return heatmap_png(
-        picture->width, picture->height,
-        "black: right; blue: near a decision; wrong: relative error, violet 2^-24 to yellow 1, "
-        "logarithmic",
-        encode_row, &(struct compared_picture){picture, explanations, tolerance}, path);
+    return (struct heatmap){
+        .width = compared->picture->width,
+        .height = compared->picture->height,
+        .description =
+            "black: right; blue: near a decision; wrong: relative error, violet 2^-24 to yellow 1, "
+            "logarithmic",
+        .color = color,
+        .context = compared,
+    };
 }

@@ -3,6 +3,7 @@
 
 #include "base/json.h"
 #include "check/compare.h"
+#include "check/heatmap.h"
 #include "image/read.h"
 #include "reference.h"
 
@@ -42,10 +43,13 @@ void verdicts_print(const struct verdicts *verdicts, const char *scene, const ch
 json_t *verdicts_json(const struct verdicts *verdicts, const char *scene, const char *picture,
                       const char *precision, size_t allowed);
 
-/* Writes an 8-bit PNG: right pixels black, those near a decision blue, wrong ones from violet to yellow by
- * their relative error, 2^-24 to 1, logarithmic. */
-enum status verdicts_heatmap(const struct read_image *picture,
-                             const struct reference_explanation *explanations,
-                             const struct tolerance *tolerance, const char *path);
+/* Right pixels black, those near a decision blue, wrong ones from violet to yellow by their relative error,
+ * 2^-24 to 1, logarithmic. */
+struct compared_picture {
+    const struct read_image *picture;
+    const struct reference_explanation *explanations;
+    const struct tolerance *tolerance;
+};
+struct heatmap verdicts_heatmap(const struct compared_picture *compared);
 
 #endif

@@ -8,7 +8,6 @@
 
 #include "base/clock.h"
 #include "check/float_limit.h"
-#include "check/heatmap.h"
 #include "check/judge.h"
 #include "check/junit.h"
 #include "check/verdict.h"
@@ -42,20 +41,27 @@ static const char *heatmap_path(const struct options *options, const char *scene
     return path;
 }
 
-/* Puts the heatmap's name behind the reason. */
-static void name_heatmap(struct check *check, const char *path)
+/* What comes of a comparison by which so many pixels are not right; `reason` has been written. Takes over its
+ * result. */
+static enum status conclude(struct check *check, const char *scene, size_t wrong, json_t *result,
+                            struct heatmap heatmap)
 {
-    const size_t length = strlen(check->reason);
-    if (path)
-        snprintf(check->reason + length, sizeof check->reason - length, "; heatmap: %s", path);
-}
-
-static enum status add_result(const struct check *check, const char *scene, json_t *result)
-{
-    if (json_array_append_new(check->results, result) == 0)
-        return STATUS_DONE;
-    log_error("no memory for the result of %s, or its name is not UTF-8", scene);
-    return STATUS_UNABLE;
+    const struct options *options = check->options;
+    enum status status = wrong <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
+    char path[PATH_MAX];
+    const char *heatmap_file = heatmap_path(options, scene, status, path);
+    if (heatmap_file) {
+        const size_t length = strlen(check->reason);
+        snprintf(check->reason + length, sizeof check->reason - length, "; heatmap: %s", heatmap_file);
+        status = status_worse(status, heatmap_write(&heatmap, heatmap_file));
+    }
+    if (!options->json) {
+        json_decref(result);
+    } else if (json_array_append_new(check->results, result) != 0) {
+        log_error("no memory for the result of %s, or its name is not UTF-8", scene);
+        status = STATUS_UNABLE;
+    }
+    return status;
 }
 
 static enum status compare(struct check *check, const char *scene, const struct image *device,
@@ -67,19 +73,13 @@ static enum status compare(struct check *check, const char *scene, const struct 
         image_compare(device, reference, options->has_tolerance ? &options->tolerance : NULL, &comparison);
     if (status != STATUS_DONE && status != STATUS_DIFFERS)
         return status;
-    status = comparison.differing <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
     comparison_print(&comparison, scene, options->allow);
-    if (options->json)
-        status = status_worse(status,
-                              add_result(check, scene, comparison_json(&comparison, scene, options->allow)));
     snprintf(check->reason, sizeof check->reason,
              "%zu pixels differ, the first at (%u, %u), the largest error %.9g at (%u, %u)",
              comparison.differing, comparison.first_x, comparison.first_y, comparison.max_error, comparison.x,
              comparison.y);
-    char path[PATH_MAX];
-    const char *heatmap = heatmap_path(options, scene, status, path);
-    name_heatmap(check, heatmap);
-    return heatmap ? status_worse(status, heatmap_write(device, reference, heatmap)) : status;
+    return conclude(check, scene, comparison.differing, comparison_json(&comparison, scene, options->allow),
+                    difference_heatmap(&(struct image_pair){device, reference}));
 }
 
 /* Compares the device's picture with the reference's in the same precision. */
@@ -107,17 +107,12 @@ static enum status judge(struct check *check, const char *scene, const struct im
     enum status status = judge_picture(image, signatures, explanations, &judgement);
     if (status == STATUS_UNABLE)
         return status;
-    status = judgement.unexplained <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
     judgement_print(&judgement, scene, precision, options->allow);
-    if (options->json)
-        status = status_worse(
-            status, add_result(check, scene, judgement_json(&judgement, scene, precision, options->allow)));
     snprintf(check->reason, sizeof check->reason, "%zu pixels unexplained, the first at (%u, %u)",
              judgement.unexplained, judgement.unexplained_x, judgement.unexplained_y);
-    char path[PATH_MAX];
-    const char *heatmap = heatmap_path(options, scene, status, path);
-    name_heatmap(check, heatmap);
-    return heatmap ? status_worse(status, judgement_heatmap(image, explanations, heatmap)) : status;
+    return conclude(check, scene, judgement.unexplained,
+                    judgement_json(&judgement, scene, precision, options->allow),
+                    judgement_heatmap(&(struct judged_picture){image, explanations}));
 }
 
 /* Judges the device's picture, or without a device that of the reference's float build, by the exact picture.
@@ -162,20 +157,12 @@ static enum status report_picture(struct check *check, const char *scene, const 
     verdicts_print(&verdicts, scene, options->picture, precision, options->allow);
     if (status == STATUS_DIFFERS)
         print_command(options, scene, &verdicts);
-    status = verdicts_wrong(&verdicts) <= options->allow ? STATUS_DONE : STATUS_DIFFERS;
-    if (options->json)
-        status = status_worse(
-            status, add_result(check, scene,
-                               verdicts_json(&verdicts, scene, options->picture, precision, options->allow)));
     snprintf(check->reason, sizeof check->reason,
              "%zu pixels of %s wrong, the largest error %.3g at (%u, %u)", verdicts_wrong(&verdicts),
              options->picture, verdicts.error, verdicts.x, verdicts.y);
-    char path[PATH_MAX];
-    const char *heatmap = heatmap_path(options, scene, status, path);
-    name_heatmap(check, heatmap);
-    return heatmap
-               ? status_worse(status, verdicts_heatmap(picture, explanations, &options->tolerance, heatmap))
-               : status;
+    return conclude(check, scene, verdicts_wrong(&verdicts),
+                    verdicts_json(&verdicts, scene, options->picture, precision, options->allow),
+                    verdicts_heatmap(&(struct compared_picture){picture, explanations, &options->tolerance}));
 }
 
 /* Judges a file's picture by the exact one. */

@@ -69,8 +69,7 @@ static void save_picture(const struct session *session)
         log_notice("picture %u: saved as %s", shown->number, path);
 }
 
-/* Shows where the picture and the reference differ, in the colours of heatmap_write(), or the picture again.
- */
+/* Shows where the picture and the reference differ, or the picture again. */
 static void toggle_difference(struct session *session)
 {
     const struct image *image = &session->shown->image;
