@@ -35,11 +35,10 @@ static bool compare_band(struct picture *picture)
     image_destroy(&reference.image);
     picture->compared += plan.window.height;
     picture->differing += comparison.differing;
-    picture->rays += reference.rays.primary + reference.rays.secondary + reference.rays.shadow;
     return true;
 }
 
-void picture_compare(struct picture *picture, bool talkative)
+void picture_compare(struct picture *picture)
 {
     const size_t pixels = (size_t)picture->image.width * picture->image.height;
     double start = clock_ms();
@@ -52,12 +51,10 @@ void picture_compare(struct picture *picture, bool talkative)
     if (good && picture->compared < picture->image.height)
         return;
     picture->band = 0;
-    if (!good)
-        picture->rays = 0;
-    else if (talkative && picture->differing == 0)
+    if (good && picture->differing == 0)
         log_notice("picture %u: agrees with the reference in all %zu pixels (after %.0f ms)", picture->number,
                    pixels, milliseconds);
-    else if (talkative)
+    else if (good)
         log_notice("picture %u: %zu of %zu pixels differ from the reference (after %.0f ms)", picture->number,
                    picture->differing, pixels, milliseconds);
 }

@@ -13,14 +13,13 @@ struct picture {
     unsigned band;     /* rows to be compared with the reference next; 0: no more */
     unsigned compared; /* rows */
     size_t differing;  /* pixels of these */
-    uint64_t rays;     /* of these */
     double since_ms;   /* when the comparison began */
 };
 
 void picture_destroy(struct picture *picture);
 
 /* Compares the next rows with the reference, for about 10 ms if one does not take longer; after the last one
- * says how many pixels differ, if talkative. */
-void picture_compare(struct picture *picture, bool talkative);
+ * says how many pixels differ. */
+void picture_compare(struct picture *picture);
 
 #endif

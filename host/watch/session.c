@@ -228,7 +228,7 @@ void session_render(struct session *session, double saved_ms)
         replace(session, &session->shown, picture);
         session->failure[0] = 0;
         tell_success(picture, pipeline_ms, saved_ms);
-        picture->band = options->check || options->window ? 1 : 0;
+        picture->band = options->check ? 1 : 0;
         picture->since_ms = clock_ms();
     } else if (status != STATUS_DIFFERS) {
         tell_failure(session, what, details, compile_ms);

@@ -20,15 +20,13 @@ static void set_title(const struct session *session)
 {
     const struct picture *shown = session->shown;
     const char *device = session->context->properties.deviceName, *failure = session->failure;
-    char title[1024], speed[64] = "", state[512];
-    if (shown && shown->band == 0 && shown->rays > 0)
-        snprintf(speed, sizeof speed, " - %.1f ms, %.1f million rays/s", shown->dispatch_ms,
-                 (double)shown->rays / shown->dispatch_ms / 1e3);
-    else if (shown)
-        snprintf(speed, sizeof speed, " - %.1f ms", shown->dispatch_ms);
-    snprintf(state, sizeof state, "%s%s", device, speed);
+    char title[1024], state[512];
     if (session->shows_difference)
         snprintf(state, sizeof state, "%zu pixels differ from the reference", session->differing);
+    else if (shown)
+        snprintf(state, sizeof state, "%s - %.1f ms", device, shown->dispatch_ms);
+    else
+        snprintf(state, sizeof state, "%s", device);
     snprintf(title, sizeof title, "%s - %s%s%s", session->options->scene, state, failure[0] ? " - " : "",
              failure);
     display_set_title(session->display, title);
@@ -138,7 +136,7 @@ static enum status follow(struct session *session)
             status = display_create(600, 400, &session->display);
         bool compares = session->shown && session->shown->band > 0 && !session->moving;
         if (compares)
-            picture_compare(session->shown, options->check);
+            picture_compare(session->shown);
         double seconds = compares ? 0 : wait_seconds;
         if (status == STATUS_DONE && session->display)
             status = take_input(session, seconds, &closed);
