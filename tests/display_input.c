@@ -63,16 +63,6 @@ static void test_keys(void **state)
         {XK_s, 0, {.save = true}},
         {XK_d, 0, {.difference = true}},
         {XK_Escape, 0, {.closed = true}},
-        {XK_plus, ShiftMask, {.zoom = 1}},
-        {XK_minus, 0, {.zoom = -1}},
-        {XK_KP_Add, 0, {.zoom = 1}},
-        {XK_KP_Subtract, 0, {.zoom = -1}},
-        {XK_Left, 0, {.orbit_x = -1.0 / 32}},
-        {XK_Right, 0, {.orbit_x = 1.0 / 32}},
-        {XK_Up, 0, {.orbit_y = -1.0 / 32}},
-        {XK_Down, 0, {.orbit_y = 1.0 / 32}},
-        {XK_Left, ShiftMask, {.pan_x = -1.0 / 32}},
-        {XK_Down, ShiftMask, {.pan_y = 1.0 / 32}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         x11_window_key(&window, XK_x, 0);

@@ -7,8 +7,6 @@
 
 #include "base/write.h"
 
-enum { MOST_CHARACTER = 4 }; /* bytes of UTF-8 */
-
 /* Bytes of a character with this first one; 0: there is none. */
 static size_t character_size(char first)
 {
@@ -67,39 +65,25 @@ void escape_line(FILE *stream, const char *text)
     fputc('\n', stream);
 }
 
-/* A standard stream behind one that escapes. */
+/* A standard stream behind one that escapes. It gets whole lines, of which one of more than BUFSIZ bytes may
+ * be cut in a character. */
 struct escaped_stream {
     int descriptor, error;
-    char begun[MOST_CHARACTER]; /* a character whose other bytes have not come yet */
-    size_t begun_size;
 };
 
 static ssize_t write_escaped(void *cookie, const char *bytes, size_t size)
 {
     struct escaped_stream *stream = cookie;
-    char text[1024], out[4096];
     for (size_t at = 0; at < size;) {
-        size_t length = stream->begun_size, used = 0, put = 0;
-        memcpy(text, stream->begun, length);
-        const size_t part = size - at < sizeof text / 4 ? size - at : sizeof text / 4;
-        memcpy(text + length, bytes + at, part);
-        at += part;
-        length += part;
-        while (used < length) {
-            const char *next = text + used;
-            const size_t left = length - used;
-            if (left < character_size(*next) && left < MOST_CHARACTER)
-                break;
-            if (*next == '\n' || *next == '\t') {
-                out[put++] = *next;
-                ++used;
+        char out[4096];
+        size_t put = 0;
+        while (at < size && put + ESCAPED_SIZE <= sizeof out)
+            if (bytes[at] == '\n' || bytes[at] == '\t') {
+                out[put++] = bytes[at++];
             } else {
-                used += escape_character(next, left, out + put);
+                at += escape_character(bytes + at, size - at, out + put);
                 put += strlen(out + put);
             }
-        }
-        stream->begun_size = length - used;
-        memcpy(stream->begun, text + used, stream->begun_size);
         if (!write_all(stream->descriptor, out, put, &stream->error))
             return 0;
     }

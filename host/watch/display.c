@@ -10,8 +10,6 @@
 
 #include "base/clock.h"
 
-static const double arrow_step = 1.0 / 32; /* of one key press, in picture heights */
-
 struct display {
     GLFWwindow *window;
     struct extent picture;       /* its size; 0 before the first */
@@ -23,15 +21,6 @@ struct display {
     bool has_input;
     char title[1024];
 };
-
-/* x and y in picture heights. */
-static void drag(struct display *display, bool pan, double x, double y)
-{
-    struct display_input *input = &display->input;
-    display->has_input = true;
-    *(pan ? &input->pan_x : &input->orbit_x) += x;
-    *(pan ? &input->pan_y : &input->orbit_y) += y;
-}
 
 /* a b / c, rounded to nearest, at least 1. */
 static unsigned scale(unsigned a, unsigned b, unsigned c)
@@ -77,13 +66,15 @@ static void on_button(GLFWwindow *window, int button, int action, int mods)
 static void on_pointer(GLFWwindow *window, double x, double y)
 {
     struct display *display = glfwGetWindowUserPointer(window);
+    struct display_input *input = &display->input;
     int width, height;
     glfwGetWindowSize(window, &width, &height);
     if (display->dragging && display->picture.width > 0 && width > 0 && height > 0) {
         unsigned shown_height =
             fit_picture(display->picture, (struct extent){(unsigned)width, (unsigned)height}).height;
-        drag(display, display->panning, (x - display->pointer_x) / shown_height,
-             (y - display->pointer_y) / shown_height);
+        *(display->panning ? &input->pan_x : &input->orbit_x) += (x - display->pointer_x) / shown_height;
+        *(display->panning ? &input->pan_y : &input->orbit_y) += (y - display->pointer_y) / shown_height;
+        display->has_input = true;
     }
     display->pointer_x = x;
     display->pointer_y = y;
@@ -110,23 +101,16 @@ static void on_key(GLFWwindow *window, int key, int scancode, int action, int mo
 {
     struct display *display = glfwGetWindowUserPointer(window);
     struct display_input *input = &display->input;
-    bool pan = mods & GLFW_MOD_SHIFT, pressed = action == GLFW_PRESS;
-    if (action == GLFW_RELEASE || (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)))
+    if (action != GLFW_PRESS || (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)))
         return;
     int code = key_code(key, scancode);
     display->has_input = true;
-    if (code == GLFW_KEY_LEFT || code == GLFW_KEY_RIGHT)
-        drag(display, pan, code == GLFW_KEY_LEFT ? -arrow_step : arrow_step, 0);
-    if (code == GLFW_KEY_UP || code == GLFW_KEY_DOWN)
-        drag(display, pan, 0, code == GLFW_KEY_UP ? -arrow_step : arrow_step);
-    if (code == '-' || code == '+' || code == '=') /* + with Shift on many keyboards */
-        input->zoom += code == '-' ? -1 : 1;
     if (code == GLFW_KEY_ESCAPE)
         glfwSetWindowShouldClose(window, GLFW_TRUE);
     input->reset |= code == 'r';
-    input->print_camera |= code == 'p' && pressed;
-    input->save |= code == 's' && pressed;
-    input->difference ^= code == 'd' && pressed; /* twice is back again */
+    input->print_camera |= code == 'p';
+    input->save |= code == 's';
+    input->difference ^= code == 'd'; /* twice is back again */
 }
 
 static const char *glfw_reason(void)

@@ -16,9 +16,9 @@ void display_disconnect(void);
  * x to the right and y down, as camera_motion.h has them; zoom is in its steps, positive: nearer. */
 struct display_input {
     bool closed;                                /* the window's button, or Escape */
-    double orbit_x, orbit_y;                    /* dragging, arrows */
+    double orbit_x, orbit_y;                    /* dragging */
     double pan_x, pan_y;                        /* the same with Shift */
-    double zoom;                                /* wheel, + and - */
+    double zoom;                                /* wheel */
     bool reset, print_camera, save, difference; /* R, P, S, D */
 };
 
