@@ -103,18 +103,18 @@ static struct look look(const struct inputs *inputs)
 {
     struct look look = {.settling_ms = closed_ms};
     clock_gettime(CLOCK_REALTIME, &look.now);
-    look.state.scene = look_at(&look, inputs->scene_path);
-    for (const char *path = inputs->sphere_files; path && *path; path += strlen(path) + 1)
-        look.state.spheres += look_at(&look, path);
-    look.state.shader = inputs->shader_broken ? look_at_folder(&look, inputs->shader_path) : 0;
-    for (const char *path = inputs->shader_files; path && *path; path += strlen(path) + 1)
-        look.state.shader += look_at(&look, path);
+    look.state.of[INPUT_SCENE] = look_at(&look, inputs->scene_path);
+    if (inputs->shader_broken)
+        look.state.of[INPUT_SHADER] = look_at_folder(&look, inputs->shader_path);
+    for (int kind = 0; kind < INPUT_KINDS; ++kind)
+        for (const char *path = inputs->files[kind]; path && *path; path += strlen(path) + 1)
+            look.state.of[kind] += look_at(&look, path);
     return look;
 }
 
 static bool same_state(struct inputs_state a, struct inputs_state b)
 {
-    return a.scene == b.scene && a.spheres == b.spheres && a.shader == b.shader;
+    return memcmp(&a, &b, sizeof a) == 0;
 }
 
 bool inputs_take(struct inputs *inputs, double *saved_ms)
@@ -143,44 +143,24 @@ bool inputs_hold(const struct inputs *inputs)
     return same_state(look(inputs).state, inputs->taken);
 }
 
-bool inputs_follow(struct inputs *inputs, char **shader_files, bool broken)
+bool inputs_follow(struct inputs *inputs, enum input_kind kind, char **files)
 {
-    struct inputs old = *inputs;
-    inputs->shader_broken = broken;
-    inputs->shader_files = *shader_files;
-    *shader_files = NULL;
-    const struct look followed = look(inputs); /* before the question whether the old ones still hold */
-    double age_ms = milliseconds_between(followed.newest, followed.now);
-    bool new_one_changed = age_ms >= 0 && age_ms < clock_ms() - inputs->last_look_ms + fine_ms / 2;
-    bool hold = inputs_hold(&old) && !new_one_changed;
-    free(old.shader_files);
-    inputs->seen.shader = followed.state.shader;
-    inputs->taken = hold ? inputs->seen : (struct inputs_state){0};
-    return hold;
-}
-
-/* Whether two lists of paths, each perhaps NULL, are the same. */
-static bool same_paths(const char *a, const char *b)
-{
-    while (a && b && *a && strcmp(a, b) == 0) {
-        a += strlen(a) + 1;
-        b += strlen(b) + 1;
-    }
-    return (!a || !*a) && (!b || !*b);
-}
-
-bool inputs_follow_spheres(struct inputs *inputs, char **sphere_files)
-{
-    bool same = same_paths(inputs->sphere_files, *sphere_files);
-    free(inputs->sphere_files);
-    inputs->sphere_files = *sphere_files;
-    *sphere_files = NULL;
-    if (!same) {
-        inputs->seen = look(inputs).state;
-        inputs->unchanged_since_ms = clock_ms();
-        inputs->taken = (struct inputs_state){0};
-    }
-    return same;
+    free(inputs->files[kind]);
+    inputs->files[kind] = *files;
+    *files = NULL;
+    const struct look found = look(inputs);
+    const double now_ms = clock_ms(), age_ms = milliseconds_between(found.newest, found.now);
+    inputs->taken.of[kind] = found.state.of[kind];
+    const bool others_hold = same_state(found.state, inputs->taken);
+    /* The files' clock may lag by half a tick; it may also be ahead. */
+    const bool is_older =
+        age_ms < 0 || (age_ms >= found.settling_ms && age_ms >= now_ms - inputs->last_look_ms + fine_ms / 2);
+    inputs->seen = found.state;
+    if (others_hold && is_older)
+        return true;
+    inputs->taken = (struct inputs_state){0};
+    inputs->unchanged_since_ms = now_ms;
+    return false;
 }
 
 char *inputs_read_scene(const struct inputs *inputs, size_t *length)
@@ -210,7 +190,7 @@ enum status inputs_create(const char *scene_path, const char *shader_folder, str
 
 void inputs_destroy(struct inputs *inputs)
 {
-    free(inputs->sphere_files);
-    free(inputs->shader_files);
+    for (int kind = 0; kind < INPUT_KINDS; ++kind)
+        free(inputs->files[kind]);
     *inputs = (struct inputs){0};
 }

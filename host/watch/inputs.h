@@ -7,19 +7,20 @@
 
 #include "base/status.h"
 
-/* The state of files, as stat() tells it, in a number: another one, other files. */
-struct inputs_state {
-    uint64_t scene, spheres, shader;
-};
-
-/* The files that a picture is made of: the scene, those with spheres that it names, and what the shader was
+/* What a picture is made of: the scene, the files with spheres that it names, and what the shader was
  * compiled from last; as long as that does not compile also what else of *.comp, *.glsl and *.h lies in its
  * folder, for that may be what mends it. */
+enum input_kind { INPUT_SCENE, INPUT_SPHERES, INPUT_SHADER, INPUT_KINDS };
+
+/* The state of the files of each kind, as stat() tells it, in a number: another one, other files. */
+struct inputs_state {
+    uint64_t of[INPUT_KINDS];
+};
+
 struct inputs {
     const char *scene_path; /* the caller's */
-    char *sphere_files;     /* as scene_list_files() has them */
     char shader_path[PATH_MAX];
-    char *shader_files; /* as struct compilation has them; NULL: not compiled yet */
+    char *files[INPUT_KINDS]; /* followed beside these: paths, each with a 0, and another 0; or NULL */
     bool shader_broken;
     struct inputs_state taken, seen; /* when they were read last; when they were last looked at */
     double last_look_ms, unchanged_since_ms, saved_ms;
@@ -39,16 +40,15 @@ bool inputs_take(struct inputs *inputs, double *saved_ms);
 /* The scene file's text, to be freed by the caller; NULL (reported) and errno where it cannot be read. */
 char *inputs_read_scene(const struct inputs *inputs, size_t *length);
 
-/* Whether the files with spheres that the scene names are those that are followed. If not, they are from now
- * on, and all files will be taken again when these are whole, too. *sphere_files was the caller's. */
-bool inputs_follow_spheres(struct inputs *inputs, char **sphere_files);
-
 /* Whether the files are still those taken: to be asked when they have been read. If not, what has been read
  * may be half a file, and they will be taken again. */
 bool inputs_hold(const struct inputs *inputs);
 
-/* The same after the shader has been compiled from these files, broken or not. They are followed from now on,
- * and were the caller's. */
-bool inputs_follow(struct inputs *inputs, char **shader_files, bool broken);
+/* To be asked when inputs_hold(), of spheres before they are read, of the shader when it has been compiled
+ * and shader_broken is set. Follows these files (a list as above, which was the caller's) in the place of
+ * others of their kind, and tells whether they are whole, and older than what was taken. If not, all will be
+ * taken again.
+ */
+bool inputs_follow(struct inputs *inputs, enum input_kind kind, char **files);
 
 #endif

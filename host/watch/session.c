@@ -102,9 +102,13 @@ static enum status compile_anew(struct session *session)
     struct inputs *inputs = &session->inputs;
     struct compilation compilation;
     enum status status = shader_build(inputs->shader_path, session->choice, &compilation);
-    if ((status == STATUS_DONE || status == STATUS_REFUSED) &&
-        !inputs_follow(inputs, &compilation.files, status == STATUS_REFUSED))
-        status = STATUS_DIFFERS;
+    if (status == STATUS_DONE || status == STATUS_REFUSED) {
+        const bool broken = status == STATUS_REFUSED, held = inputs_hold(inputs);
+        if (held)
+            inputs->shader_broken = broken;
+        if (!held || !inputs_follow(inputs, INPUT_SHADER, &compilation.files))
+            status = STATUS_DIFFERS;
+    }
     free(session->messages);
     session->messages = compilation.messages;
     compilation.messages = NULL;
@@ -126,7 +130,7 @@ static enum status compile(struct session *session, const struct picture *pictur
 {
     const struct tracer_options options = tracer_options(session);
     const struct shader_choice choice = tracer_shader(session->context, &picture->job.packed, &options);
-    bool compiled = session->compiled_state == session->inputs.taken.shader &&
+    bool compiled = session->compiled_state == session->inputs.taken.of[INPUT_SHADER] &&
                     choice.variant == session->choice.variant &&
                     choice.scene_in_storage == session->choice.scene_in_storage;
     double start = clock_ms();
@@ -134,7 +138,7 @@ static enum status compile(struct session *session, const struct picture *pictur
         session->choice = choice;
         session->compiled = compile_anew(session);
         bool known = session->compiled == STATUS_DONE || session->compiled == STATUS_REFUSED;
-        session->compiled_state = known ? session->inputs.taken.shader : 0;
+        session->compiled_state = known ? session->inputs.taken.of[INPUT_SHADER] : 0;
     }
     *compile_ms = compiled ? 0 : clock_ms() - start;
     if (session->compiled == STATUS_REFUSED || (session->compiled == STATUS_DONE && !compiled))
@@ -243,14 +247,14 @@ void session_take(struct session *session, double saved_ms)
     size_t length;
     char *text = inputs_read_scene(&session->inputs, &length);
     char *sphere_files = text ? scene_list_files(session->inputs.scene_path, text, length) : NULL;
-    if (!inputs_hold(&session->inputs) || !inputs_follow_spheres(&session->inputs, &sphere_files)) {
+    if (!inputs_hold(&session->inputs) || !inputs_follow(&session->inputs, INPUT_SPHERES, &sphere_files)) {
         free(text);
         free(sphere_files);
         return;
     }
     session->scene_changed = !text || !session->scene_text || strcmp(text, session->scene_text) != 0 ||
-                             session->spheres_state != session->inputs.taken.spheres;
-    session->spheres_state = session->inputs.taken.spheres;
+                             session->spheres_state != session->inputs.taken.of[INPUT_SPHERES];
+    session->spheres_state = session->inputs.taken.of[INPUT_SPHERES];
     free(session->scene_text);
     session->scene_text = text;
     session->scene_length = length;
