@@ -105,21 +105,11 @@ static void test_pointer(void **state)
     assert_input(&input, &(struct display_input){.closed = true});
 }
 
-static void test_wait(void **state)
-{
-    (void)state;
-    assert_shows(WIDTH, HEIGHT);
-    double start = clock_ms();
-    wait_for_input(0.25);
-    assert_true(clock_ms() >= start + 250);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_keys, open_window, close_window),
         cmocka_unit_test_setup_teardown(test_pointer, open_window, close_window),
-        cmocka_unit_test_setup_teardown(test_wait, open_window, close_window),
     };
     return cmocka_run_group_tests(tests, open_server, close_server);
 }

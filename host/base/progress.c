@@ -2,11 +2,9 @@
 
 #include <stdatomic.h>
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "base/escape.h"
 
 enum { BAR_WIDTH = 40 };
 
@@ -87,13 +85,7 @@ void progress_advance(struct progress *progress, uint64_t amount)
     if (elapsed_ms - progress->moved_ms > left_ms && progress->done < progress->total)
         left_ms = elapsed_ms - progress->moved_ms; /* it has come to what takes longer than the rest */
     int filled = (int)(fraction * (double)BAR_WIDTH);
-    char label[128] = "", shown[ESCAPED_SIZE];
-    const char *at = progress->label, *end = at + strlen(at);
-    while (at < end && strlen(label) + ESCAPED_SIZE < sizeof label) {
-        at += escape_character(at, (size_t)(end - at), shown);
-        strcat(label, shown);
-    }
-    dprintf(STDERR_FILENO, "\r%s [%.*s%*s] %3.0f %%  %s left %s", label, filled,
+    dprintf(STDERR_FILENO, "\r%s [%.*s%*s] %3.0f %%  %s left %s", progress->label, filled,
             "########################################", BAR_WIDTH - filled, "", fraction * 100,
             print_duration(left_ms / 1000, text), wipe_behind);
     visible = true;

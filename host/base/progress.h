@@ -17,7 +17,7 @@ struct progress {
 /* Whether any bar is shown: not with -q. */
 void progress_allow(bool any);
 
-/* label must outlive the progress. Quiet, it shows nothing. */
+/* label, which is shown as it is, must outlive the progress. Quiet, it shows nothing. */
 void progress_start(struct progress *progress, const char *label, uint64_t total, bool quiet);
 
 /* So much is under way: what is done after some time is a share of that at most. For work of which none is

@@ -121,10 +121,6 @@ static enum status start_points(struct bench *bench)
     return status;
 }
 
-/* In rounds, points stand in the order of multiples of STRIDE, modulo BENCH_MAX_SETTINGS: near the golden
- * section of that, it spreads those that are neighbours in the list, as are the CPU's, evenly. */
-enum { STRIDE = 79 };
-
 /* Runs all points warm in rounds, one run of each in a round, so that what disturbs the machine for a while
  * disturbs all of them; every other round runs backward, so that a steady drift cancels. */
 static enum status run_rounds(struct bench *bench)
@@ -137,11 +133,8 @@ static enum status run_rounds(struct bench *bench)
     bool going_on = true;
     for (size_t round = 0; going_on && status == STATUS_DONE; ++round) {
         going_on = false;
-        for (size_t slot = 0; slot < BENCH_MAX_SETTINGS && status == STATUS_DONE; ++slot) {
-            size_t i = (round % 2 ? BENCH_MAX_SETTINGS - 1 - slot : slot) * STRIDE % BENCH_MAX_SETTINGS;
-            if (i >= bench->count)
-                continue;
-            struct bench_point *point = &bench->points[i];
+        for (size_t i = 0; i < bench->count && status == STATUS_DONE; ++i) {
+            struct bench_point *point = &bench->points[round % 2 ? bench->count - 1 - i : i];
             const double run_start = clock_ms();
             double elapsed = fmin((run_start - start) / runs_ms, 1); /* of the time */
             bool is_over = point->spent_ms >= effort->runs.point_ms || elapsed >= 1;

@@ -65,7 +65,7 @@ enum status bench_scene(const struct bench_options *options, const char *path, j
     enum status status = job_create(&options->job, path, &bench.job);
     if (status != STATUS_DONE)
         return status;
-    progress_start(&bench.progress, path, TRUTH_SHARE + FILTERED_SHARE + START_SHARE + RUNS_SHARE,
+    progress_start(&bench.progress, "measuring", TRUTH_SHARE + FILTERED_SHARE + START_SHARE + RUNS_SHARE,
                    options->job.plan.quiet);
     for (size_t i = 0; i < sizeof steps / sizeof *steps && status == STATUS_DONE; ++i)
         status = steps[i](&bench);

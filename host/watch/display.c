@@ -1,14 +1,11 @@
 #include "watch/display.h"
 
-#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <GLFW/glfw3.h>
-
-#include "base/clock.h"
 
 struct display {
     GLFWwindow *window;
@@ -18,7 +15,6 @@ struct display {
     bool dragging, panning;      /* the left button is down; Shift was, when it went down */
     double pointer_x, pointer_y; /* where it was last */
     struct display_input input;
-    bool has_input;
     char title[1024];
 };
 
@@ -74,7 +70,6 @@ static void on_pointer(GLFWwindow *window, double x, double y)
             fit_picture(display->picture, (struct extent){(unsigned)width, (unsigned)height}).height;
         *(display->panning ? &input->pan_x : &input->orbit_x) += (x - display->pointer_x) / shown_height;
         *(display->panning ? &input->pan_y : &input->orbit_y) += (y - display->pointer_y) / shown_height;
-        display->has_input = true;
     }
     display->pointer_x = x;
     display->pointer_y = y;
@@ -83,9 +78,7 @@ static void on_pointer(GLFWwindow *window, double x, double y)
 static void on_scroll(GLFWwindow *window, double x, double y)
 {
     (void)x;
-    struct display *display = glfwGetWindowUserPointer(window);
-    display->input.zoom += y;
-    display->has_input = true;
+    ((struct display *)glfwGetWindowUserPointer(window))->input.zoom += y;
 }
 
 /* The character on a key, or where that is none of ASCII, GLFW's number for it: of a letter key, the letter
@@ -99,12 +92,10 @@ static int key_code(int key, int scancode)
 
 static void on_key(GLFWwindow *window, int key, int scancode, int action, int mods)
 {
-    struct display *display = glfwGetWindowUserPointer(window);
-    struct display_input *input = &display->input;
+    struct display_input *input = &((struct display *)glfwGetWindowUserPointer(window))->input;
     if (action != GLFW_PRESS || (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)))
         return;
     int code = key_code(key, scancode);
-    display->has_input = true;
     if (code == GLFW_KEY_ESCAPE)
         glfwSetWindowShouldClose(window, GLFW_TRUE);
     input->reset |= code == 'r';
@@ -219,22 +210,16 @@ enum status display_paint(struct display *display)
 
 enum status display_wait(struct display *display, double seconds, struct display_input *input)
 {
-    const double longest_wait = 0.1; /* the driver may have read from the connection what GLFW waits for */
-    const double end_ms = clock_ms() + seconds * 1e3;
     enum status status = STATUS_DONE;
-    for (;;) {
+    if (seconds > 0)
+        glfwWaitEventsTimeout(seconds);
+    else
         glfwPollEvents();
-        if (display->stale && display->picture.width > 0)
-            status = display_paint(display);
-        double left = (end_ms - clock_ms()) / 1e3;
-        display->input.closed = glfwWindowShouldClose(display->window);
-        if (status != STATUS_DONE || left <= 0 || display->has_input || display->input.closed)
-            break;
-        glfwWaitEventsTimeout(fmin(left, longest_wait));
-    }
+    if (display->stale && display->picture.width > 0)
+        status = display_paint(display);
     *input = display->input;
+    input->closed = glfwWindowShouldClose(display->window);
     display->input = (struct display_input){0};
-    display->has_input = false;
     glfwSetWindowShouldClose(display->window, GLFW_FALSE);
     return status;
 }

@@ -37,7 +37,7 @@ unsigned char *display_picture(struct display *display, unsigned width, unsigned
  * (reported): nothing will be shown any more. */
 enum status display_paint(struct display *display);
 
-/* Waits until there is input, or a signal came, or the time is over. */
+/* Waits until something happens to the window, but no longer than for so many seconds. */
 enum status display_wait(struct display *display, double seconds, struct display_input *input);
 
 struct extent {
