@@ -1,13 +1,7 @@
-#include <pthread.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <string.h>
-#include <time.h>
+#include "unit.h"
 
-#include <cmocka.h>
+#include <pthread.h>
+#include <time.h>
 
 #include "base/clock.h"
 #include "test_folder.h"

@@ -42,6 +42,9 @@ static inline int test_folder_teardown(void **state)
     return chdir("/") == 0 && rmdir(test_folder) == 0 ? 0 : -1;
 }
 
+/* A test that runs in such a folder. */
+#define TEST_IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_folder_setup, test_folder_teardown)
+
 /* Standard error goes into a pipe (64 KiB at most) between the two; the second returns how many lines were
  * written and puts the first of them (as much as fits) into line. */
 static int test_messages_fd, test_saved_stderr;

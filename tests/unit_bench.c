@@ -1,13 +1,5 @@
 /* What a bench concludes from its measurements. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "unit.h"
 
 #include "base/statistics.h"
 #include "bench/document.h"
@@ -368,7 +360,7 @@ int main(void)
         cmocka_unit_test(compare_errors),
         cmocka_unit_test(compare_nothing_in_common),
         cmocka_unit_test(no_memory),
-        cmocka_unit_test_setup_teardown(no_bench_document, test_folder_setup, test_folder_teardown),
+        TEST_IN_FOLDER(no_bench_document),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

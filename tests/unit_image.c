@@ -1,15 +1,7 @@
 /* Pictures and picture files: what is written reads back. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "unit.h"
 
 #include <limits.h>
-#include <math.h>
 #include <openexr.h>
 #include <png.h>
 
@@ -436,8 +428,6 @@ static void test_same_picture_same_bytes(void **state)
     }
     image_destroy(&image);
 }
-
-#define TEST_IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_folder_setup, test_folder_teardown)
 
 int main(void)
 {

@@ -1,12 +1,6 @@
 /* Whatever happens to the files of a picture is taken up when it is whole, and what happens beside them is
  * not. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "unit.h"
 
 #include <sys/stat.h>
 #include <time.h>

@@ -1,17 +1,9 @@
 /* Output files appear whole or not at all, whatever goes wrong. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "unit.h"
 
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/output_file.h"
 #include "image/image.h"
@@ -251,8 +243,6 @@ static void test_full_disk(void **state)
             assert_full_disk(&image, names[n], limits[l]);
     image_destroy(&image);
 }
-
-#define TEST_IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_folder_setup, test_folder_teardown)
 
 int main(void)
 {

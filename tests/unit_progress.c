@@ -1,16 +1,8 @@
 /* A message takes the progress bar's place; what takes minutes says so. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "unit.h"
 
 #include <fcntl.h>
 #include <poll.h>
-#include <unistd.h>
 
 #include "base/progress.h"
 #include "base/status.h"

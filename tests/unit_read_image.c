@@ -1,14 +1,6 @@
 /* Pictures of other programs: what each format's values stand for, and what is refused. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
+#include "unit.h"
 
-#include <cmocka.h>
-
-#include <math.h>
 #include <openexr.h>
 #include <png.h>
 
@@ -346,8 +338,6 @@ static void truncated_files(void **state)
         free(bytes);
     }
 }
-
-#define TEST_IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_folder_setup, test_folder_teardown)
 
 int main(void)
 {

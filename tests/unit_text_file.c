@@ -1,18 +1,10 @@
 /* Whole files are read, and what cannot be read says why. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "unit.h"
 
 #include <errno.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "base/output_file.h"
 #include "base/text_file.h"
@@ -136,8 +128,6 @@ static void test_outputs_are_not_read(void **state)
     assert_non_null(text);
     free(text);
 }
-
-#define TEST_IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_folder_setup, test_folder_teardown)
 
 int main(void)
 {

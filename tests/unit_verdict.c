@@ -1,12 +1,5 @@
 /* What a picture's pixel is by the exact one, and why. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
-#include <math.h>
+#include "unit.h"
 
 #include "check/verdict.h"
 
