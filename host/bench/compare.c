@@ -1,4 +1,3 @@
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,11 +22,8 @@ enum status bench_document_read(const char *path, json_t **document)
     size_t length;
     char *text = text_file_read(path, false, MOST_BYTES, &length);
     *document = NULL;
-    if (!text) {
-        const int reason = errno;
-        log_error("%s: %s", path, input_file_problem(reason));
-        return input_file_status(reason);
-    }
+    if (!text)
+        return input_file_refuse(path);
     *document = json_loadb(text, length, JSON_REJECT_DUPLICATES, &error);
     free(text);
     if (json_is_array(json_object_get(*document, "scenes")) &&

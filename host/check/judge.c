@@ -8,7 +8,14 @@
 
 static const double relative_floor = 1e-3, tight = 1e-2;
 
-struct pixel_error judge_pixel(const float *rgb, const struct reference_explanation *exact)
+/* A pixel's errors, the largest over its channels. */
+struct pixel_error {
+    double relative;       /* |float - exact| / max(|exact|, 1e-3) */
+    double share_of_bound; /* |float - exact| / bound: above 1 the analysis does not explain it */
+};
+
+/* What is not a number, on either side, is infinitely wrong. */
+static struct pixel_error judge_pixel(const float *rgb, const struct reference_explanation *exact)
 {
     struct pixel_error worst = {0, 0};
     for (int c = 0; c < 3; ++c) {

@@ -5,15 +5,6 @@
 #include "check/heatmap.h"
 #include "reference.h"
 
-/* A pixel's errors, the largest over its channels. */
-struct pixel_error {
-    double relative;       /* |float - exact| / max(|exact|, 1e-3) */
-    double share_of_bound; /* |float - exact| / bound: above 1 the analysis does not explain it */
-};
-
-/* What is not a number, on either side, is infinitely wrong. */
-struct pixel_error judge_pixel(const float *rgb, const struct reference_explanation *exact);
-
 /* How far a float picture is from the exact one. */
 struct judgement {
     double median, percentile_99, percentile_99_99,

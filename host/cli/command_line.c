@@ -201,38 +201,28 @@ static enum status find_scenes(struct options *options)
     return STATUS_DONE;
 }
 
-static const char *file_of(const struct option_entry *option, const struct options *options,
-                           bool (*kind)(const struct option_entry *, const char *, void *))
-{
-    return option->read == kind ? *(const char *const *)((const char *)options + option->offset) : NULL;
-}
-
-static enum status check_input(const char *path)
-{
-    struct stat identity;
-    const char *output = path && stat(path, &identity) == 0 ? output_file_claimed(&identity) : NULL;
-    if (!output)
-        return STATUS_DONE;
-    log_error("%s: is read, and is to be written as %s", path, output);
-    return STATUS_REFUSED;
-}
-
-/* Whether all outputs can be written, and are neither each other nor an input, before anything is computed.
- */
+/* Whether all outputs can be written, and are neither each other nor a scene, before anything is computed.
+ * That they are no other input is seen when that is read. */
 static enum status check_files(const struct options *options)
 {
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
         status = image_write_check(options->outputs[i]);
     for (const struct option_entry *option = option_table; option->help && status == STATUS_DONE; ++option) {
-        const char *path = file_of(option, options, read_output_file);
-        if (path && !(path == options->heatmap && options_heatmap_folder(options)))
-            status = output_file_claim(path);
+        const char *const *path = (const void *)((const char *)options + option->offset);
+        const bool is_folder = path == &options->heatmap && options_heatmap_folder(options);
+        if (option->read == read_output_file && *path && !is_folder)
+            status = output_file_claim(*path);
     }
-    for (const struct option_entry *option = option_table; option->help && status == STATUS_DONE; ++option)
-        status = check_input(file_of(option, options, read_input_file));
-    for (size_t i = 0; i < options->scene_count && status == STATUS_DONE; ++i)
-        status = check_input(options->scenes[i]);
+    for (size_t i = 0; i < options->scene_count && status == STATUS_DONE; ++i) {
+        struct stat identity;
+        const char *scene = options->scenes[i];
+        const char *output = stat(scene, &identity) == 0 ? output_file_claimed(&identity) : NULL;
+        if (output) {
+            log_error("%s: is read, and is to be written as %s", scene, output);
+            status = STATUS_REFUSED;
+        }
+    }
     return status;
 }
 

@@ -39,11 +39,6 @@ static bool read_text(const struct option_entry *option, const char *value, void
     return true;
 }
 
-bool read_input_file(const struct option_entry *option, const char *value, void *place)
-{
-    return read_text(option, value, place);
-}
-
 bool read_output_file(const struct option_entry *option, const char *value, void *place)
 {
     return read_text(option, value, place);
@@ -155,7 +150,6 @@ enum {
 /* The members from `value` to `most`. */
 #define FLAG(member) NULL, read_flag, offsetof(struct options, member), 0, 0
 #define TEXT(value, member) value, read_text, offsetof(struct options, member), 0, 0
-#define INPUT(value, member) value, read_input_file, offsetof(struct options, member), 0, 0
 #define OUTPUT(value, member) value, read_output_file, offsetof(struct options, member), 0, 0
 #define NUMBER(member, least, most) "N", read_number, offsetof(struct options, member), least, most
 #define CHOICE(words, member, first) words, read_choice, offsetof(struct options, member), first, 0
@@ -210,7 +204,7 @@ const struct option_entry option_table[] = {
     {"heatmap", "", CHECK, OUTPUT("FILE.png", heatmap),
      "where they differ, as a picture; DIR/: one for each scene\n"
      "that differs, in that folder"},
-    {"picture", "", CHECK, INPUT("FILE", picture),
+    {"picture", "", CHECK, TEXT("FILE", picture),
      "judge this picture (.exr, .pfm, .png) by any other program\n"
      "instead of one's own (default --against double)"},
     {"junit", "", CHECK, OUTPUT("FILE.xml", junit), "the result for CI, a test case a scene"},
@@ -230,7 +224,7 @@ const struct option_entry option_table[] = {
     {"quick", "", BENCH, FLAG(quick), "fewer settings and runs: half a minute a scene"},
     {"report", "", BENCH, OUTPUT("FILE.html", report), "all of it on one page, with charts"},
     {"csv", "", BENCH, OUTPUT("FILE", csv), "the measurements, one a line"},
-    {"compare", "", BENCH, INPUT("OLD.json", compare),
+    {"compare", "", BENCH, TEXT("OLD.json", compare),
      "what became faster, slower or less accurate beyond noise since\n"
      "the bench that wrote this with --json"},
 

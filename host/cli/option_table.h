@@ -26,8 +26,7 @@ extern const struct option_entry option_table[]; /* ends with one without help *
 
 enum { OPTION_COUNT_MAX = 63 };
 
-/* The value is the path of a file that is read, or written; command_line_read() looks after those. */
-bool read_input_file(const struct option_entry *option, const char *value, void *place);
+/* The value is the path of a file that is written; command_line_read() sees that it is no other one. */
 bool read_output_file(const struct option_entry *option, const char *value, void *place);
 
 /* Splits text at the separator into exactly `count` whole numbers up to most. */

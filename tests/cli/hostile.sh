@@ -20,7 +20,7 @@ eaten_inputs() {
         refused 2 '.*is to be written' pixel s.yaml 1 1 --json $json
     done
     echo '{}' >old.json
-    refused 2 '.*is to be written' bench --backend cpu s.yaml --compare old.json --json old.json
+    refused 2 'old.json: cannot read: is also to be written' bench --backend cpu s.yaml --compare old.json --json old.json
     expect 2 "$VKWHITTED" render $quick flake.yaml -o link.png
     said 'flake.npy: is also to be written'
     refused 2 '.*written already' render $quick s.yaml -o same.png --stats same.png
