@@ -73,17 +73,11 @@ void progress_advance(struct progress *progress, uint64_t amount)
     progress->done = amount < progress->total - progress->done ? progress->done + amount : progress->total;
     double elapsed_ms = clock_ms() - progress->start_ms;
     announce(progress, elapsed_ms);
-    if (progress->done - progress->moved >= progress->total / 100) {
-        progress->moved = progress->done;
-        progress->moved_ms = elapsed_ms;
-    }
     if (!progress->enabled || elapsed_ms < 500 || progress->done == 0)
         return;
     char text[32];
     double fraction = (double)progress->done / (double)progress->total;
     double left_ms = elapsed_ms * (1 - fraction) / fraction;
-    if (elapsed_ms - progress->moved_ms > left_ms && progress->done < progress->total)
-        left_ms = elapsed_ms - progress->moved_ms; /* it has come to what takes longer than the rest */
     int filled = (int)(fraction * (double)BAR_WIDTH);
     dprintf(STDERR_FILENO, "\r%s [%.*s%*s] %3.0f %%  %s left %s", progress->label, filled,
             "########################################", BAR_WIDTH - filled, "", fraction * 100,

@@ -9,8 +9,7 @@
 struct progress {
     const char *label;
     uint64_t done, begun, total;
-    double start_ms, moved_ms; /* the bar has moved by a hundredth since */
-    uint64_t moved;            /* what was done then */
+    double start_ms;
     bool enabled, announces;
 };
 
@@ -24,7 +23,7 @@ void progress_start(struct progress *progress, const char *label, uint64_t total
  * done for long. */
 void progress_begin(struct progress *progress, uint64_t amount);
 
-/* So much more is done, or 0: the time that is left is then as long as nothing has moved, at least. */
+/* So much more is done, or 0, which shows that time goes by. */
 void progress_advance(struct progress *progress, uint64_t amount);
 
 /* Wipes the bar; the next advance shows it again. Messages (status.h) do so before they appear. May

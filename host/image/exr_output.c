@@ -28,8 +28,7 @@ struct part {
 
 static int parts_of_a_kind(const struct exr_output *output)
 {
-    const unsigned rows = output->strips.rows, height = output->window.height;
-    return rows > 0 ? (int)((height + rows - 1) / rows) : 1;
+    return (int)window_strip_count(output->window, output->strips);
 }
 
 static struct part get_part(const struct exr_output *output, int index)

@@ -12,6 +12,11 @@ struct window window_strip(struct window window, struct strips strips, unsigned 
     return window;
 }
 
+unsigned window_strip_count(struct window window, struct strips strips)
+{
+    return strips.rows > 0 ? (window.height + strips.rows - 1) / strips.rows : 1;
+}
+
 enum status image_create(unsigned width, unsigned height, struct image *image)
 {
     *image = (struct image){0};

@@ -19,6 +19,9 @@ struct strips {
 /* The part of the window that begins with its row y and whose rows lie together. */
 struct window window_strip(struct window window, struct strips strips, unsigned y);
 
+/* The number of such parts. */
+unsigned window_strip_count(struct window window, struct strips strips);
+
 /* Linear RGB radiance, row 0 on top, pixel (x, y) channel c at rgb[(y * width + x) * 3 + c]. */
 struct image {
     unsigned width, height;

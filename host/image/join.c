@@ -49,13 +49,6 @@ static const char *get_text(const struct exr_input *input, const char *name)
                : NULL;
 }
 
-/* The number of strips of a tile with these rows: the parts of its file for colours, and perhaps as many for
- * bounds. */
-static unsigned count_strips(struct window window, struct strips strips)
-{
-    return (window.height + strips.rows - 1) / strips.rows;
-}
-
 /* Whether the file's parts are where the tile's rows are. */
 static bool parts_fit(const struct exr_input *input, struct tile_file *file)
 {
@@ -64,7 +57,7 @@ static bool parts_fit(const struct exr_input *input, struct tile_file *file)
     int parts;
     if (!tile_rows(&file->tile, &window, &strips) || !exr_succeeded(exr_get_count(input->context, &parts)))
         return false;
-    const int of_a_kind = (int)count_strips(window, strips);
+    const int of_a_kind = (int)window_strip_count(window, strips); /* of colours, and perhaps of bounds */
     file->bounds_truncation = parts == 2 * of_a_kind;
     bool fit = parts == of_a_kind || file->bounds_truncation;
     for (int i = 0; i < parts && fit; ++i)
@@ -193,7 +186,7 @@ static enum status read_row(void *context, unsigned y, bool truncation, const fl
     struct window window;
     struct strips strips;
     tile_rows(&file->tile, &window, &strips);
-    const unsigned part = at / strips.rows + (truncation ? count_strips(window, strips) : 0);
+    const unsigned part = at / strips.rows + (truncation ? window_strip_count(window, strips) : 0);
     return exr_input_read(&join->input, (int)part, (int)(file->tile.whole.y + y), truncation ? bound : colors,
                           truncation ? 1 : 3, row);
 }
