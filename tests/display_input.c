@@ -1,4 +1,6 @@
-#include "unit.h"
+#include "cmocka_test.h"
+
+#include <math.h>
 
 #include "base/clock.h"
 #include "test_window.h"

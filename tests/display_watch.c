@@ -1,7 +1,10 @@
 /* `vkwhitted watch` in a window on an X server of the test's own, as a user sees it; validated throughout. */
-#include "unit.h"
+#include "cmocka_test.h"
 
 #include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/wait.h>
 #include <time.h>
 

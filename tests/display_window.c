@@ -1,6 +1,8 @@
-#include "unit.h"
+#include "cmocka_test.h"
 
 #include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "base/clock.h"

@@ -1,5 +1,9 @@
 /* What a bench concludes from its measurements. */
-#include "unit.h"
+#include "cmocka_test.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "base/statistics.h"
 #include "bench/document.h"

@@ -1,6 +1,10 @@
-#include "unit.h"
+#include "cmocka_test.h"
 
 #include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/number.h"
 #include "scene/pack.h"

@@ -1,5 +1,9 @@
 /* What a terminal would obey is shown instead; all other text stays as it is. */
-#include "unit.h"
+#include "cmocka_test.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/escape.h"
 

@@ -1,4 +1,6 @@
-#include "unit.h"
+#include "cmocka_test.h"
+
+#include <string.h>
 
 #include "watch/display.h"
 

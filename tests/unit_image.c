@@ -1,9 +1,12 @@
 /* Pictures and picture files: what is written reads back. */
-#include "unit.h"
+#include "cmocka_test.h"
 
 #include <limits.h>
 #include <openexr.h>
 #include <png.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "image/exr_input.h"
 #include "image/srgb.h"

@@ -1,7 +1,10 @@
 /* Whatever happens to the files of a picture is taken up when it is whole, and what happens beside them is
  * not. */
-#include "unit.h"
+#include "cmocka_test.h"
 
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <time.h>
 

@@ -1,4 +1,6 @@
-#include "unit.h"
+#include "cmocka_test.h"
+
+#include <math.h>
 
 #include "check/judge.h"
 

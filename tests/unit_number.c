@@ -1,6 +1,9 @@
-#include "unit.h"
+#include "cmocka_test.h"
 
 #include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "base/number.h"
 

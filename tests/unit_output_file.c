@@ -1,7 +1,9 @@
 /* Output files appear whole or not at all, whatever goes wrong. */
-#include "unit.h"
+#include "cmocka_test.h"
 
 #include <signal.h>
+#include <stdio.h>
+#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 

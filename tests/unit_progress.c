@@ -1,8 +1,11 @@
 /* A message takes the progress bar's place; what takes minutes says so. */
-#include "unit.h"
+#include "cmocka_test.h"
 
 #include <fcntl.h>
 #include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "base/progress.h"
 #include "base/status.h"

@@ -1,8 +1,12 @@
 /* Pictures of other programs: what each format's values stand for, and what is refused. */
-#include "unit.h"
+#include "cmocka_test.h"
 
+#include <math.h>
 #include <openexr.h>
 #include <png.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/text_file.h"
 #include "image/read.h"

@@ -1,7 +1,9 @@
 /* Whole files are read, and what cannot be read says why. */
-#include "unit.h"
+#include "cmocka_test.h"
 
 #include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>

@@ -1,5 +1,7 @@
 /* What a picture's pixel is by the exact one, and why. */
-#include "unit.h"
+#include "cmocka_test.h"
+
+#include <math.h>
 
 #include "check/verdict.h"
 
