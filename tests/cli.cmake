@@ -56,7 +56,7 @@ add_cli_tests(watch broken_and_repaired spheres_from_a_file checked_in_the_backg
 add_cli_tests(progress on_a_terminal)
 if(VKWHITTED_TESTS STREQUAL "all")
     add_cli_tests(watch scene_edits_keep_the_pipeline missing_includes camera_among_many_spheres shader_edits broken_at_the_start
-                  ways_of_saving written_slowly quick_saves idle checked_in_double validated)
+                  ways_of_saving quick_saves idle checked_in_double validated)
     add_cli_tests(progress inside_tiles minutes not_elsewhere quiet)
 endif()
 add_cli_tests(join tiles refusals usage damaged)

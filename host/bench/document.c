@@ -150,37 +150,29 @@ enum status bench_describe(struct bench *bench, json_t **scene)
     append(&convergence, describe_convergence(bench, FAMILY_SAMPLES));
     for (int i = 0; i < 4; ++i)
         append(&recommendations, describe_recommendation(bench, (const double[]){1e-2, 1e-3, 1e-4, 1e-5}[i]));
-    *scene = json_pack(
-        "{s:s, s:i, s:i, s:i, s:i, s:i, s:b, s:s, s:I, s:s, s:I, s:o, s:o, s:o}", "scene",
-        bench->job.scene.path, "width", (int)picture->width, "height", (int)picture->height, "max_bounces",
-        (int)picture->max_bounces, "light_samples", (int)picture->light_samples, "samples",
-        (int)picture->samples, "sampled", bench->has_quad_lights, "truth", bench->truth.text, "truth_pixels",
-        (json_int_t)pixel_grid_count(&bench->truth.pixels.grid), "truth_samples", bench->filtered.text,
-        "truth_samples_pixels", (json_int_t)pixel_grid_count(&bench->filtered.pixels.grid), "points", points,
-        "convergence", convergence, "recommendations", recommendations);
+    *scene = json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:b, s:s, s:s, s:o, s:o, s:o}", "scene",
+                       bench->job.scene.path, "width", (int)picture->width, "height", (int)picture->height,
+                       "max_bounces", (int)picture->max_bounces, "light_samples", (int)picture->light_samples,
+                       "samples", (int)picture->samples, "sampled", bench->has_quad_lights, "truth",
+                       bench->truth.text, "truth_samples", bench->filtered.text, "points", points,
+                       "convergence", convergence, "recommendations", recommendations);
     if (*scene)
         return STATUS_DONE;
     log_error("no memory for the result of %s, or its name is not UTF-8", bench->job.scene.path);
     return STATUS_UNABLE;
 }
 
-/* The command line as a shell would read it; the caller frees it. NULL without memory. */
-static char *quote_command(int count, char **arguments)
+/* The command line, for people; the caller frees it. NULL without memory. */
+static char *join_words(int count, char **words)
 {
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
     char *command = NULL;
     size_t size;
     FILE *stream = open_memstream(&command, &size);
     if (!stream)
         return NULL;
     fputs("vkwhitted", stream);
-    for (int i = 1; i < count; ++i) {
-        bool quoted = !*arguments[i] || arguments[i][strspn(arguments[i], plain)];
-        fputs(quoted ? " '" : " ", stream);
-        for (const char *c = arguments[i]; *c; ++c)
-            fprintf(stream, *c == '\'' ? "'\\''" : "%c", *c);
-        fputs(quoted ? "'" : "", stream);
-    }
+    for (int i = 1; i < count; ++i)
+        fprintf(stream, " %s", words[i]);
     if (fclose(stream) == 0)
         return command;
     free(command);
@@ -205,7 +197,7 @@ static void name_processor(char name[256])
 enum status bench_document(int argc, char **argv, bool quick, const struct vulkan_context *context,
                            json_t **document)
 {
-    char date[32], processor[256], *command = quote_command(argc, argv);
+    char date[32], processor[256], *command = join_words(argc, argv);
     time_t now = time(NULL);
     strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", gmtime(&now));
     name_processor(processor);

@@ -48,7 +48,7 @@ void junit_add(struct junit *junit, const char *scene, double seconds, enum stat
     fputs("</testcase>\n", junit->cases);
 }
 
-enum status junit_write(struct junit *junit, const char *device, const char *path)
+enum status junit_write(struct junit *junit, const char *path)
 {
     struct output_file file;
     const bool complete = junit->cases && fclose(junit->cases) == 0;
@@ -61,10 +61,8 @@ enum status junit_write(struct junit *junit, const char *device, const char *pat
         fprintf(file.stream,
                 "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
                 "  <testsuite name=\"vkwhitted check\" tests=\"%u\" failures=\"%u\" errors=\"%u\">\n"
-                "    <properties><property name=\"device\" value=\"",
-                junit->tests, junit->failures, junit->errors);
-        put_text(file.stream, device);
-        fprintf(file.stream, "\"/></properties>\n%s  </testsuite>\n</testsuites>\n", junit->text);
+                "%s  </testsuite>\n</testsuites>\n",
+                junit->tests, junit->failures, junit->errors, junit->text);
         status = output_file_commit(&file);
     }
     free(junit->text);

@@ -20,8 +20,8 @@ void junit_create(struct junit *junit);
 void junit_add(struct junit *junit, const char *scene, double seconds, enum status outcome,
                const char *reason);
 
-/* Writes what ran on the device to the file, or where that is NULL nowhere, and destroys the report. Names
- * are escaped as they are on a terminal. STATUS_UNABLE (reported). */
-enum status junit_write(struct junit *junit, const char *device, const char *path);
+/* Writes the report to the file, or where that is NULL nowhere, and destroys it. Names are escaped as they
+ * are on a terminal. STATUS_UNABLE (reported). */
+enum status junit_write(struct junit *junit, const char *path);
 
 #endif

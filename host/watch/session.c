@@ -263,10 +263,10 @@ void session_take(struct session *session, double saved_ms)
 
 void session_preview(struct session *session, unsigned reduction)
 {
-    double pipeline_ms, start = clock_ms();
+    double pipeline_ms;
     struct picture *picture = session->failure[0] ? NULL : prepare(session, reduction);
-    if (picture && render(session, picture, &pipeline_ms) == STATUS_DONE)
-        log_info("moving: every %u pixels in %.1f ms", reduction, clock_ms() - start);
+    if (picture)
+        render(session, picture, &pipeline_ms);
     release(session, picture);
     if (session->context->lost)
         reopen_device(session);

@@ -155,18 +155,6 @@ missing_includes() {
     finish
 }
 
-# Written slowly, in place, the file is taken when it has been closed, not before.
-written_slowly() {
-    start
-    sed 's/power: [0-9]*/power: 44/' s.yaml >new.yaml
-    turn 'same pipeline' sh -c '(head -c 300 new.yaml; sleep 0.4; tail -c +301 new.yaml) >s.yaml'
-    picture_is_rendered_scene
-    cp shaders/shade.glsl new.glsl
-    turn 'same pipeline' sh -c '(head -c 999 new.glsl; sleep 0.4; tail -c +1000 new.glsl) >shaders/shade.glsl'
-    finish
-    not_said 'refused|failed'
-}
-
 # A file with spheres is followed from when the scene names it, whole or not, there or not.
 spheres_from_a_file() {
     local line='  - { name: Flake, type: spheres, file: rows.npy, material: GreyMatte }'
