@@ -209,10 +209,11 @@ static enum status check_files(const struct options *options)
     for (size_t i = 0; i < options->output_count && status == STATUS_DONE; ++i)
         status = image_write_check(options->outputs[i]);
     for (const struct option_entry *option = option_table; option->help && status == STATUS_DONE; ++option) {
-        const char *const *path = (const void *)((const char *)options + option->offset);
-        const bool is_folder = path == &options->heatmap && options_heatmap_folder(options);
-        if (option->read == read_output_file && *path && !is_folder)
-            status = output_file_claim(*path);
+        if (option->read != read_output_file)
+            continue;
+        const char *path = *(const char *const *)((const char *)options + option->offset);
+        if (path && !(path == options->heatmap && options_heatmap_folder(options)))
+            status = output_file_claim(path);
     }
     for (size_t i = 0; i < options->scene_count && status == STATUS_DONE; ++i) {
         struct stat identity;
