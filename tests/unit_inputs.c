@@ -160,6 +160,11 @@ static void changed_while_read(void **state)
     assert_true(follow("missing", false));
     write_file("missing");
     assert_taken();
+    char *none = NULL;
+    assert_true(inputs_hold(&inputs));
+    assert_int_equal(unlink("scene"), 0); /* between the two questions */
+    assert_false(inputs_follow(&inputs, INPUT_SHADER, &none));
+    assert_taken();
 }
 
 static bool follow_spheres(const char *path)
