@@ -61,6 +61,14 @@ static ssize_t write_to_file(void *cookie, const char *bytes, size_t size)
     return write_all(file->descriptor, bytes, size, &file->error) ? (ssize_t)size : 0;
 }
 
+static void forget_temporary(struct output_file *file)
+{
+    if (file->temporary)
+        interrupt_leaves(file->temporary);
+    free(file->temporary);
+    file->temporary = NULL;
+}
+
 /* Creates a file beside target under a name nobody has: exclusive and with mode 0666 it has the permissions
  * (umask, default ACL) of any new file, which mkstemp() does not give. False and errno on failure. */
 static bool create_beside(struct output_file *file)
@@ -68,6 +76,7 @@ static bool create_beside(struct output_file *file)
     const char *target = file->target, *slash = strrchr(target, '/'), *name = slash ? slash + 1 : target;
     errno = EEXIST;
     for (int attempt = 0; file->descriptor < 0 && errno == EEXIST && attempt < 100; attempt++) {
+        forget_temporary(file);
         /* 200: names end at 255 bytes. */
         if (asprintf(&file->temporary, "%.*s.%.200s.%ld.%d", (int)(name - target), target, name,
                      (long)getpid(), attempt) < 0) {
@@ -78,26 +87,16 @@ static bool create_beside(struct output_file *file)
         errno = EMFILE;
         if (interrupt_removes(file->temporary))
             file->descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (file->descriptor < 0) {
-            const int error = errno;
-            interrupt_leaves(file->temporary);
-            free(file->temporary);
-            file->temporary = NULL;
-            errno = error;
-        }
     }
-    if (file->descriptor < 0)
-        return false;
-    file->stream = fopencookie(file, "w", (cookie_io_functions_t){.write = write_to_file});
+    if (file->descriptor >= 0)
+        file->stream = fopencookie(file, "w", (cookie_io_functions_t){.write = write_to_file});
     return file->stream != NULL;
 }
 
 static void release(struct output_file *file)
 {
-    if (file->temporary)
-        interrupt_leaves(file->temporary);
+    forget_temporary(file);
     free(file->target);
-    free(file->temporary);
     *file = (struct output_file){.descriptor = -1};
 }
 

@@ -48,30 +48,25 @@ ssize_t input_file_read(int file, void *bytes, size_t size)
 static char *read_open_file(int file, size_t most, size_t *length)
 {
     char *text = NULL;
-    size_t room = 0, size = 0;
-    ssize_t got = 1;
-    while (got > 0) {
-        room = room ? 2 * room : 4096;
+    size_t size = 0;
+    for (size_t room = 4096; size <= most; room *= 2) {
         char *larger = realloc(text, room + 1);
-        if (!larger)
-            break;
-        text = larger;
-        got = input_file_read(file, text + size, room - size);
-        size += got > 0 ? (size_t)got : 0;
-        if (size > most) {
-            errno = EFBIG;
-            break;
+        const ssize_t got = larger ? input_file_read(file, larger + size, room - size) : -1;
+        text = larger ? larger : text;
+        if (got < 0) {
+            free(text); /* which leaves errno alone */
+            return NULL;
         }
-        if (size < room && got > 0)
-            got = 0; /* the end */
+        size += (size_t)got;
+        if (size < room && size <= most) { /* the end */
+            text[size] = 0;
+            *length = size;
+            return text;
+        }
     }
-    if (got != 0) {
-        free(text); /* which leaves errno alone */
-        return NULL;
-    }
-    text[size] = 0;
-    *length = size;
-    return text;
+    free(text);
+    errno = EFBIG;
+    return NULL;
 }
 
 char *text_file_read(const char *path, bool regular_only, size_t most, size_t *length)
