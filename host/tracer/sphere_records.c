@@ -56,7 +56,6 @@ static void write_box(const struct writing *writing, uint32_t record, const stru
     for (int a = 0; a < 3; ++a)
         words[a] = grid_plane(writing, a, box->lo[a], false) | grid_plane(writing, a, box->hi[a], true) << 16;
     words[3] = BOX_FLAG | link;
-    writing->words[record] = 0;
 }
 
 /* Writes the sphere of a leaf; `which` place of its is the record. */
@@ -78,7 +77,6 @@ static void write_sphere(const struct writing *writing, uint32_t record, const s
 static void write_nothing(const struct writing *writing, uint32_t record)
 {
     memcpy(writing->records[record], &(layout_vec4){.w = 0}, sizeof *writing->records);
-    writing->words[record] = 0;
 }
 
 /* Each node but the root has its record in the place of its number: children lie side by side. */
@@ -133,12 +131,11 @@ static void write_stream(struct writing *writing, uint32_t place, float above)
         write_box(writing, record, &node->box, writing->next);
 }
 
-/* Where the stream ends that begins there. */
-static uint32_t stream_end(const struct writing *writing, uint32_t begin)
+/* Where the stream will end that is about to be written. */
+static uint32_t stream_end(const struct writing *writing)
 {
     struct writing counting = *writing;
     counting.records = NULL;
-    counting.next = begin;
     write_stream(&counting, 0, INFINITY);
     return counting.next;
 }
@@ -183,7 +180,7 @@ void sphere_records_write(const struct packed_scene *scene, uint32_t (*records)[
     if (scene->hierarchy) {
         writing.nodes = scene->hierarchy->nodes;
         uint32_t end;
-        while ((end = stream_end(&writing, stream)) > sphere_record_count(scene))
+        while ((end = stream_end(&writing)) > sphere_record_count(scene))
             writing.worth *= 0.75F;
         writing.sphere_words = words + end;
         const struct box *box = &writing.nodes->box;
@@ -199,6 +196,5 @@ void sphere_records_write(const struct packed_scene *scene, uint32_t (*records)[
     memcpy(records[GRID_STEP], &step, sizeof step);
     records[STREAM][0] = stream;
     records[STREAM][1] = writing.next;
-    memset(words, 0, HEAD_RECORDS * sizeof *words);
     progress_end(&progress);
 }
