@@ -56,7 +56,8 @@ typedef struct PackedSurface PackedSurface;
 #define BOX_FLAG                                                                                             \
     0xc0000000u /* with a record's number the last word of a box; that of a sphere is its radius */
 
-/* A word for each record: the number of its sphere, and flags; behind them some for each sphere. */
+/* A word for each record, undefined where that is no sphere: its number, and flags; behind them some for each
+ * sphere. */
 #define HOLDS_RAYS_FLAG 0x80000000u
 #define HOLDS_LIGHTS_FLAG 0x40000000u
 #define PLACE_IN_PAIRS 0

@@ -1,5 +1,5 @@
-/* From a scene file to what finds its many spheres: each part shows a bar where it takes long, and the first
- * Ctrl-C ends it at once. */
+/* From a scene file to what finds its many spheres: each part shows a bar where it takes long, the first
+ * Ctrl-C ends it at once, and the device's part is small. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,7 +24,7 @@
 #include "tracer/reference_scene.h"
 #include "tracer/sphere_records.h"
 
-enum { ROWS = 70000, LATE_MS = 15, MILLISECOND = 1000000 /* ns */ };
+enum { ROWS = 70000, DEVICE_BYTES = 80 /* a sphere */, LATE_MS = 15, MILLISECOND = 1000000 /* ns */ };
 
 /* With the linker's --wrap. As if each look at the clock came a second after the last one, where so. */
 static bool slow;
@@ -61,23 +61,29 @@ static void write_scene(void)
     assert_int_equal(fclose(file), 0);
 }
 
-static void build_all(void)
+/* Whether the device's part is as small as it is to be, and has room for the boxes. */
+static bool build_all(const char *path)
 {
     struct scene scene;
     struct packed_scene packed, reference;
-    assert_int_equal(scene_read("a.yaml", &scene), STATUS_DONE);
+    assert_int_equal(scene_read(path, &scene), STATUS_DONE);
     scene_warn(&scene);
     const struct picture_settings settings = test_settings(&scene);
     assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
     assert_int_equal(reference_scene(&packed, 2, &reference), STATUS_DONE);
-    uint32_t(*records)[4] = calloc(sphere_record_count(&packed), sizeof *records);
-    uint32_t *words = calloc(sphere_word_count(&packed), sizeof *words);
+    const uint64_t record_count = sphere_record_count(&packed), word_count = sphere_word_count(&packed);
+    uint32_t(*records)[4] = calloc(record_count, sizeof *records);
+    uint32_t *words = calloc(word_count, sizeof *words);
     assert_true(records && words);
     sphere_records_write(&packed, records, words);
+    const bool fits = record_count * sizeof *records + word_count * sizeof *words <=
+                          DEVICE_BYTES * (uint64_t)packed.sphere_count &&
+                      records[STREAM][1] <= record_count;
     free(records);
     free(words);
     pack_destroy(&packed);
     scene_destroy(&scene);
+    return fits;
 }
 
 /* What the child has used of processors. */
@@ -106,8 +112,7 @@ static void interrupted(void **state)
             if (timer_create(CLOCK_PROCESS_CPUTIME_ID, &event, &timer) != 0 ||
                 timer_settime(timer, 0, &when, NULL) != 0)
                 _exit(1);
-            build_all();
-            _exit(0);
+            _exit(!build_all("a.yaml"));
         }
         assert_int_equal(wait4(child, &how, 0, &usage), child);
         if (WIFEXITED(how)) {
@@ -137,8 +142,7 @@ static void bars(void **state)
     if (child == 0) {
         dup2(other_end, STDERR_FILENO);
         slow = true;
-        build_all();
-        _exit(0);
+        _exit(!build_all("a.yaml"));
     }
     int how = 0;
     size_t length = 0;
@@ -160,6 +164,13 @@ static void bars(void **state)
     close(terminal);
 }
 
+/* There is no room for all boxes of these that are worth it. */
+static void device_memory(void **state)
+{
+    (void)state;
+    assert_true(build_all(SOURCE_DIR "/scenes/hard/sphere_decades.yaml"));
+}
+
 static int setup(void **state)
 {
     if (test_folder_setup(state) != 0)
@@ -170,6 +181,7 @@ static int setup(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(interrupted), cmocka_unit_test(bars)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(interrupted), cmocka_unit_test(bars),
+                                       cmocka_unit_test(device_memory)};
     return cmocka_run_group_tests_name("building", tests, setup, test_folder_teardown);
 }

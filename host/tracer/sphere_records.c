@@ -13,9 +13,11 @@ enum { STEPS_BELOW = 257, STEPS = 65200 };
 
 enum { NODES_A_STEP = 16384 }; /* of the progress */
 
-/* A box of the stream is worth its record if it is smaller than that of the record above by this factor: 0.6
- * to 0.9 cost the same, within noise, 1 (all boxes) a tenth more. */
-static const float worth = 0.75F;
+/* A box of the stream is worth its record if it is smaller than the box of the record above by this factor,
+ * and around more than two spheres. Shadow rays of sphereflakes and clouds take least turns so, with a box
+ * for each third sphere; with 0.75 and boxes around two they take up to a tenth more, with nine boxes for ten
+ * spheres. */
+static const float worth = 0.5F;
 
 struct writing {
     const struct packed_scene *scene;
@@ -24,6 +26,7 @@ struct writing {
     uint32_t (*records)[4]; /* NULL: only counting */
     uint32_t *words, *sphere_words;
     uint32_t next;             /* record of the stream */
+    float worth;               /* that factor, or less where the stream has no room for so many boxes */
     struct progress *progress; /* in nodes, each of which is written twice */
 };
 
@@ -53,7 +56,6 @@ static void write_box(const struct writing *writing, uint32_t record, const stru
     for (int a = 0; a < 3; ++a)
         words[a] = grid_plane(writing, a, box->lo[a], false) | grid_plane(writing, a, box->hi[a], true) << 16;
     words[3] = BOX_FLAG | link;
-    writing->words[record] = 0;
 }
 
 /* Writes the sphere of a leaf; `which` place of its is the record. */
@@ -75,7 +77,6 @@ static void write_sphere(const struct writing *writing, uint32_t record, const s
 static void write_nothing(const struct writing *writing, uint32_t record)
 {
     memcpy(writing->records[record], &(layout_vec4){.w = 0}, sizeof *writing->records);
-    writing->words[record] = 0;
 }
 
 /* Each node but the root has its record in the place of its number: children lie side by side. */
@@ -119,15 +120,24 @@ static void write_stream(struct writing *writing, uint32_t place, float above)
         ++writing->next;
         return;
     }
+    const struct hierarchy_node *left = &writing->nodes[node->left], *right = left + 1;
     const float area = box_half_area(&node->box);
-    const bool kept = area < worth * above;
+    const bool kept = area < writing->worth * above && (left->left > 0 || right->left > 0);
+    const bool turned = box_half_area(&left->box) < box_half_area(&right->box);
     writing->next += kept;
-    const bool turned =
-        box_half_area(&writing->nodes[node->left].box) < box_half_area(&writing->nodes[node->left + 1].box);
     write_stream(writing, node->left + turned, kept ? area : above);
     write_stream(writing, node->left + !turned, kept ? area : above);
     if (kept && writing->records)
         write_box(writing, record, &node->box, writing->next);
+}
+
+/* Where the stream will end that is about to be written. */
+static uint32_t stream_end(const struct writing *writing)
+{
+    struct writing counting = *writing;
+    counting.records = NULL;
+    write_stream(&counting, 0, INFINITY);
+    return counting.next;
 }
 
 static uint64_t other_count(const struct packed_scene *scene)
@@ -144,8 +154,8 @@ static uint64_t pair_records(const struct packed_scene *scene)
 
 uint64_t sphere_record_count(const struct packed_scene *scene)
 {
-    const uint64_t nodes = scene->hierarchy ? scene->hierarchy->node_count : 0;
-    return HEAD_RECORDS + pair_records(scene) + nodes;
+    const uint64_t count = other_count(scene);
+    return HEAD_RECORDS + pair_records(scene) + count + 3 * count / 8;
 }
 
 uint64_t sphere_word_count(const struct packed_scene *scene)
@@ -162,15 +172,17 @@ void sphere_records_write(const struct packed_scene *scene, uint32_t (*records)[
         .records = records,
         .words = words,
         .next = stream,
+        .worth = worth,
         .progress = &progress,
     };
     float largest = 0;
     progress_start(&progress, "boxes for the device", 4 * other_count(scene), false);
     if (scene->hierarchy) {
-        struct writing counting = {.nodes = scene->hierarchy->nodes, .next = stream};
-        write_stream(&counting, 0, INFINITY);
-        writing.sphere_words = words + counting.next;
         writing.nodes = scene->hierarchy->nodes;
+        uint32_t end;
+        while ((end = stream_end(&writing)) > sphere_record_count(scene))
+            writing.worth *= 0.75F;
+        writing.sphere_words = words + end;
         const struct box *box = &writing.nodes->box;
         for (int a = 0; a < 3; ++a)
             largest = fmaxf(largest, fmaxf(-box->lo[a], box->hi[a]));
@@ -184,6 +196,5 @@ void sphere_records_write(const struct packed_scene *scene, uint32_t (*records)[
     memcpy(records[GRID_STEP], &step, sizeof step);
     records[STREAM][0] = stream;
     records[STREAM][1] = writing.next;
-    memset(words, 0, HEAD_RECORDS * sizeof *words);
     progress_end(&progress);
 }
