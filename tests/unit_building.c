@@ -24,7 +24,11 @@
 #include "tracer/reference_scene.h"
 #include "tracer/sphere_records.h"
 
-enum { ROWS = 70000, DEVICE_BYTES = 80 /* a sphere */, LATE_MS = 15, MILLISECOND = 1000000 /* ns */ };
+enum { ROWS = 70000, DEVICE_BYTES = 80 /* a sphere */, MILLISECOND = 1000000 /* ns */ };
+
+/* A processor timer is looked at in ticks of up to 10 ms, for which two threads are charged; and memory is
+ * given back. All the building is more than twice as much. */
+enum { LATE_MS = 40 };
 
 /* With the linker's --wrap. As if each look at the clock came a second after the last one, where so. */
 static bool slow;
