@@ -226,7 +226,7 @@ track_receive(const struct packed_scene *scene, const struct matte_point *matte,
     const double cos_in = (double)dot(hit->normal, sample.direction);
     const double e_cos_in = dot_error(hit->normal, point->hit.normal, sample.direction, sample.e_direction);
     sample.margin = INFINITY;
-    NOTE_LIGHT_BOUNDS(e_light, length_error(distance, off), e_cos_in, 0, INFINITY);
+    TELL(note_light_bounds(errors_vector(e_light), length_error(distance, off), e_cos_in, 0, INFINITY));
     if (cos_in < -e_cos_in)
         return sample;
     double e_factor, factor = track_factor(matte, point, &sample, cos_in, e_cos_in, &e_factor);
@@ -249,7 +249,8 @@ track_receive(const struct packed_scene *scene, const struct matte_point *matte,
         require_positive(&lit, (double)dot(vector_of(quad->area_normal), sample.direction),
                          dot_error(vector_of(quad->area_normal), none, sample.direction, sample.e_direction));
     sample.margin = conjunction_margin(&lit);
-    NOTE_LIGHT_BOUNDS(e_light, length_error(distance, off), e_cos_in, sample.error, sample.margin);
+    TELL(note_light_bounds(errors_vector(e_light), length_error(distance, off), e_cos_in, sample.error,
+                           sample.margin));
     return sample;
 }
 
@@ -295,8 +296,8 @@ static inline void track_quad(const struct packed_scene *scene, int number, cons
         double e_projected =
             dot_error(area, none, sample.direction, sample.e_direction) + FLT_MIN; /* denormal */
         double largest = larger((double)dot(area, sample.direction) + e_projected, 0);
-        NOTE_AREA_BOUND(e_projected);
-        RECORD_LIGHT(scene->point_light_count + number, k, light, projected);
+        TELL(event_light.area_bound = e_projected);
+        TELL(record_light(scene->point_light_count + number, k, light, projected));
         sum += lit ? sample.received * (double)projected : 0;
         errors[sample.may_hide] += sample.error * largest + sample.received * smaller(e_projected, largest);
         result->margin = smaller(result->margin, sample.margin);
@@ -317,7 +318,7 @@ static inline struct tracked_light track_lights(const struct packed_scene *scene
         struct tracked_sample sample = track_receive(scene, &matte, point, NULL, position,
                                                      (struct errors){0, 0, 0, 0}, &to_light, tally);
         note(tally, sample.received > 0);
-        RECORD_LIGHT(i, 0, position, 1);
+        TELL(record_light(i, 0, position, 1));
         add_light(&light, scene->point_lights[i].intensity, sample.received,
                   sample.may_hide ? 0 : sample.error, sample.may_hide ? sample.error : 0);
         light.margin = smaller(light.margin, sample.margin);

@@ -19,12 +19,4 @@ struct reference_log {
     size_t room, count;
 };
 
-/* Traces the pixel as the functions of reference.h do, and appends what happens to the log. */
-void reference_record_float(const struct packed_scene *scene, int x, int y, struct reference_log *log);
-void reference_record_double(const struct packed_scene *scene, int x, int y, struct reference_log *log);
-
-/* The same at high precision, with bounds and margins; no EVENT_SAMPLE, and no charges. */
-void reference_analyse_double(const struct packed_scene *scene, int x, int y, struct reference_log *log);
-void reference_analyse_quad(const struct packed_scene *scene, int x, int y, struct reference_log *log);
-
 #endif

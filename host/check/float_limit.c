@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "reference.h"
 #include "reference_events.h"
 #include "scene/body.h"
 #include "scene/pack.h"
@@ -28,14 +29,11 @@ struct off_pixel {
 
 static bool is_off(const struct packed_scene *scene, int x, int y)
 {
-    double in_float[3], exact[3];
-    struct reference_picture picture = {.rgb = in_float}, exact_picture = {.rgb = exact};
-    const struct reference_window pixel = {x, y, 1, 1};
+    const struct reference_pixel in_float = reference_trace_float(scene, x, y, NULL),
+                                 exact = reference_trace_double(scene, x, y, NULL);
     bool off = false;
-    reference_render_float(scene, pixel, 1, &picture);
-    reference_render_double(scene, pixel, 1, &exact_picture);
     for (int c = 0; c < 3; ++c)
-        off |= !(fabs(in_float[c] - exact[c]) < off_by * fmax(fabs(exact[c]), darkest));
+        off |= !(fabs(in_float.rgb[c] - exact.rgb[c]) < off_by * fmax(fabs(exact.rgb[c]), darkest));
     return off;
 }
 
@@ -43,7 +41,7 @@ static struct off_pixel look_at(const struct packed_scene *scene, int x, int y)
 {
     struct reference_event events[2]; /* the primary ray and its hit */
     struct reference_log log = {.events = events, .room = 2};
-    reference_record_double(scene, x, y, &log);
+    reference_trace_double(scene, x, y, &log);
     if (log.count < 2 || events[1].head.place.EVENT_KIND != EVENT_HIT)
         return (struct off_pixel){.surface = -1};
     return (struct off_pixel){events[1].head.facts.EVENT_SURFACE, events[1].values[6]};
