@@ -249,7 +249,7 @@ bool plane_shadows(int i, real3 point, int surface, real3 light)
 bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real distance, real3 light)
 {
     bool shadowed = false;
-    note_no_blocker();
+    TELL(light_blocker = -1;)
     FOR_EACH_OBJECT(i, SPHERES, {
         bool shadows;
         if (is_giant(i))
@@ -257,7 +257,7 @@ bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real dista
         else
             shadows = sphere_shadows(i, point, surface, inward, to_light, distance, light);
         shadowed = shadows || shadowed;
-        note_blocker(i, shadowed);
+        TELL(note_blocker(i, shadowed);)
         if (!PROCESSOR && shadowed) // lavapipe only masks what is skipped
             return true;
     })
@@ -266,7 +266,7 @@ bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real dista
     if (PLANES_SHADOW)
         FOR_EACH_OBJECT(i, PLANES, {
             shadowed = plane_shadows(i, point, surface, light) || shadowed;
-            note_blocker(ALL_SPHERES + i, shadowed);
+            TELL(note_blocker(ALL_SPHERES + i, shadowed);)
             if (!PROCESSOR && shadowed)
                 return true;
         })

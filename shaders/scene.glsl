@@ -92,37 +92,16 @@ void hoist_scene()
         hoisted_quad_lights[i] = quad_lights[i];
 }
 
-PackedSphere get_sphere(int i)
-{
-    if (HOISTED)
-        return hoisted_spheres[i].sphere;
-    return spheres[i].sphere;
-}
-
-PackedSurface get_surface(int sphere)
-{
-    if (HOISTED)
-        return hoisted_spheres[sphere].surface;
-    return spheres[sphere].surface;
-}
-
-PackedPlane get_plane(int i)
-{
-    if (HOISTED)
-        return hoisted_planes[i];
-    return planes[i];
-}
-
-PackedPointLight get_point_light(int i)
-{
-    if (HOISTED)
-        return hoisted_point_lights[i];
-    return point_lights[i];
-}
-
-PackedQuadLight get_quad_light(int i)
-{
-    if (HOISTED)
-        return hoisted_quad_lights[i];
-    return quad_lights[i];
-}
+// An element of the scene, or a member of one.
+#define SCENE_GETTER(Type, get, name, member) \
+    Type get(int i)                           \
+    {                                         \
+        if (HOISTED)                          \
+            return hoisted_##name[i] member;  \
+        return name[i] member;                \
+    }
+SCENE_GETTER(PackedSphere, get_sphere, spheres, .sphere)
+SCENE_GETTER(PackedSurface, get_surface, spheres, .surface)
+SCENE_GETTER(PackedPlane, get_plane, planes, )
+SCENE_GETTER(PackedPointLight, get_point_light, point_lights, )
+SCENE_GETTER(PackedQuadLight, get_quad_light, quad_lights, )
