@@ -77,11 +77,11 @@ static inline void record_ray(uint32_t sample, const struct ray *ray, real weigh
 static inline int find_blocker_in_tree(const struct packed_scene *scene, const struct segment *segment)
 {
     int first = scene->sphere_count, own = segment->surface;
-    if (is_in_tree(scene, own) && sphere_blocks(&scene->spheres[own], own, segment))
+    if (is_in_tree(scene, own) && sphere_blocks(scene, own, segment))
         first = own;
     struct sphere_walk walk = walk_segment(scene, segment);
     for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
-        if (i < first && sphere_blocks(&scene->spheres[i], i, segment))
+        if (i < first && sphere_blocks(scene, i, segment))
             first = i;
     return first;
 }
@@ -90,7 +90,7 @@ static inline int find_blocker_in_tree(const struct packed_scene *scene, const s
 static inline int find_blocker(const struct packed_scene *scene, const struct segment *segment)
 {
     int i = 0;
-    while (i < tried_spheres(scene) && !tried_sphere_blocks(scene, i, segment))
+    while (i < tried_spheres(scene) && !sphere_blocks(scene, i, segment))
         ++i;
     if (scene->tree && i == tried_spheres(scene))
         i = find_blocker_in_tree(scene, segment);

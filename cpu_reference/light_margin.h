@@ -5,67 +5,46 @@
 #include "margin.h"
 #include "matte.h"
 
-/* Margin of one sphere's blocking the segment or not; *blocks gets which. */
-static inline double sphere_block_margin(const struct PackedSphere *sphere, int surface,
+/* Margin of sphere i's blocking the segment or not; *blocks gets which. */
+static inline double sphere_block_margin(const struct packed_scene *scene, int i,
                                          const struct segment *segment, double e_from, double e_direction,
                                          bool *blocks)
 {
-    bool own = segment->surface == surface;
-    *blocks = sphere_blocks(sphere, surface, segment);
+    const layout_ivec4 tags = scene->spheres[i].tags;
+    const bool own = segment->surface == i;
+    *blocks = sphere_blocks(scene, i, segment);
     if (own && !segment->inward)
         return INFINITY;
     double margin = INFINITY;
     bool inside = own;
-    if (sphere->tags.HOLDS_LIGHTS != 0) {
-        margin = inside_margin(sphere->center_radius, segment->to, rounding(length(segment->to)));
-        inside = inside || contains(sphere, segment->to);
-    }
-    if (!own && sphere->tags.HOLDS_RAYS != 0) {
-        margin = smaller(margin, inside_margin(sphere->center_radius, segment->from, e_from));
-        inside = inside || contains(sphere, segment->from);
-    }
-    if (inside)
-        return margin; /* where the ends lie decides all */
-    struct tracked_approach approach = track_approach(
-        sphere->center_radius, segment->from, segment->direction, (struct ray_error){e_from, e_direction});
-    struct conjunction blocked = conjunction_begin();
-    require_positive(&blocked, approach.along, approach.e_along);
-    require_positive(&blocked, approach.clearance, approach.e_clearance);
-    require_positive(&blocked, (double)segment->length - approach.along, approach.e_along + e_from);
-    return smaller(margin, conjunction_margin(&blocked));
-}
-
-/* Of a giant. */
-static inline double giant_block_margin(const struct packed_scene *scene, int i,
-                                        const struct segment *segment, double e_from, double e_direction,
-                                        bool *blocks)
-{
-    const layout_ivec4 tags = scene->spheres[i].tags;
-    const bool own = segment->surface == i;
-    *blocks = tried_sphere_blocks(scene, i, segment);
-    if (own && !segment->inward)
-        return INFINITY;
-    struct giant giant = giant_of(scene, i);
-    struct tracked_giant_line line =
-        track_giant_line(&giant, segment->from, segment->direction, (struct ray_error){e_from, e_direction},
-                         !own && tags.HOLDS_RAYS != 0);
-    double margin = INFINITY;
-    bool inside = own || line.height < 0;
     if (tags.HOLDS_LIGHTS != 0) {
-        double height = (double)giant_height(&giant, segment->to);
-        margin = margin_of(height, height_error(&giant, segment->to, rounding(length(segment->to))));
-        inside = inside || height < 0;
+        margin = inside_margin(scene, i, segment->to, rounding(length(segment->to)));
+        inside = inside || lies_inside(scene, i, segment->to);
     }
-    if (!own && tags.HOLDS_RAYS != 0)
-        margin = smaller(margin, margin_of(line.height, line.e_height));
+    if (!own && tags.HOLDS_RAYS != 0) {
+        margin = smaller(margin, inside_margin(scene, i, segment->from, e_from));
+        inside = inside || lies_inside(scene, i, segment->from);
+    }
     if (inside)
         return margin; /* where the ends lie decides all */
-    double bend = (double)giant.curvature * (double)segment->length;
+    const struct ray_error error = {e_from, e_direction};
     struct conjunction blocked = conjunction_begin();
-    require_positive(&blocked, -line.slope, line.e_slope);
-    require_positive(&blocked, line.root_squared, line.e_root_squared);
-    require_positive(&blocked, bend + line.slope,
-                     line.e_slope + (double)giant.curvature * e_from + rounding(bend));
+    if (is_giant(scene, i)) {
+        struct giant giant = giant_of(scene, i);
+        struct tracked_giant_line line =
+            track_giant_line(&giant, segment->from, segment->direction, error, tags.HOLDS_RAYS != 0);
+        double bend = (double)giant.curvature * (double)segment->length;
+        require_positive(&blocked, -line.slope, line.e_slope);
+        require_positive(&blocked, line.root_squared, line.e_root_squared);
+        require_positive(&blocked, bend + line.slope,
+                         line.e_slope + (double)giant.curvature * e_from + rounding(bend));
+    } else {
+        struct tracked_approach approach =
+            track_approach(scene->spheres[i].center_radius, segment->from, segment->direction, error);
+        require_positive(&blocked, approach.along, approach.e_along);
+        require_positive(&blocked, approach.clearance, approach.e_clearance);
+        require_positive(&blocked, (double)segment->length - approach.along, approach.e_along + e_from);
+    }
     return smaller(margin, conjunction_margin(&blocked));
 }
 
@@ -105,9 +84,7 @@ static inline void add_sphere(const struct packed_scene *scene, int i, const str
                               double e_from, double e_direction, struct shadow *shadow)
 {
     bool blocks;
-    double margin = is_giant(scene, i)
-                        ? giant_block_margin(scene, i, segment, e_from, e_direction, &blocks)
-                        : sphere_block_margin(&scene->spheres[i], i, segment, e_from, e_direction, &blocks);
+    double margin = sphere_block_margin(scene, i, segment, e_from, e_direction, &blocks);
     add_blocker(shadow, blocks, margin);
 }
 

@@ -45,11 +45,12 @@ void call_meet_sphere(const meet_sphere_input *input, meet_sphere_output *output
 {
     const struct ray ray = ray_of(&input->ray);
     struct hit hit = {.surface = 0};
-    bool met = meet_sphere(&input->sphere, 0, &ray, &hit.distance, &hit.from_inside) &&
-               hit.distance < (real)FARTHEST_HIT;
     Sphere sphere = input->sphere;
+    const struct packed_scene scene = {.sphere_count = 1, .spheres = &sphere};
+    bool met =
+        meet_sphere(&scene, 0, &ray, &hit.distance, &hit.from_inside) && hit.distance < (real)FARTHEST_HIT;
     if (met)
-        locate(&(struct packed_scene){.sphere_count = 1, .spheres = &sphere}, &ray, &hit);
+        locate(&scene, &ray, &hit);
     output->hit = record_of(met, &hit);
 }
 
@@ -123,7 +124,9 @@ static struct segment segment_of(const SegmentRecord *segment)
 void call_sphere_shadows(const sphere_shadows_input *input, sphere_shadows_output *output)
 {
     const struct segment segment = segment_of(&input->segment);
-    output->shadows = sphere_blocks(&input->sphere, 0, &segment);
+    Sphere sphere = input->sphere;
+    output->shadows =
+        sphere_blocks(&(struct packed_scene){.sphere_count = 1, .spheres = &sphere}, 0, &segment);
 }
 
 void call_giant_shadows(const giant_shadows_input *input, giant_shadows_output *output)
