@@ -77,16 +77,6 @@ static struct off_pixel most_frequent(const struct off_pixel *off, size_t count)
     return found;
 }
 
-/* The object with the body of that place in the file, and its row. */
-static const struct scene_object *find_object(const struct scene *scene, size_t order, size_t *row)
-{
-    const struct scene_object *object = scene->objects;
-    for (; order >= object_body_count(object); ++object)
-        order -= object_body_count(object);
-    *row = order;
-    return object;
-}
-
 static void warn(const struct job *job, struct off_pixel off, double share)
 {
     static const char *const types[] = {
@@ -95,21 +85,20 @@ static void warn(const struct job *job, struct off_pixel off, double share)
     const double distance = off.distance / pack_scale(scene),
                  coordinates = dvec3_largest(dvec3_of(scene->camera.position));
     const bool far_out = coordinates > FAR_OUT * distance;
-    char row[32] = "", size[32] = "", why[96];
-    size_t number;
-    const struct scene_object *object =
-        find_object(scene, (size_t)body_file_order(&job->packed, off.surface), &number);
-    const struct body body = body_of(object, number);
-    if (object->type == OBJECT_SPHERES)
-        snprintf(row, sizeof row, " row %zu", number);
+    char name[BODY_NAME], size[32] = "", why[96];
+    const size_t number = (size_t)body_file_order(&job->packed, off.surface);
+    const struct body_place place = body_find(scene, number);
+    const struct scene_object *object = place.object;
+    const struct body body = body_numbered(scene, number);
     if (body.is_ball)
         snprintf(size, sizeof size, "radius %.3g m, ", body.number);
     snprintf(why, sizeof why, far_out ? "seen from %.3g m, at coordinates of %.3g m" : "seen from %.3g m",
              distance, coordinates);
-    log_warning("%s:%d:%d: %s \"%s\"%s: %s%s: shading is off by 1 %% or more in %.0f %% of the pixels "
+    log_warning("%s:%d:%d: %s %s: %s%s: shading is off by 1 %% or more in %.0f %% of the pixels "
                 "looked at; %suse --precision double",
-                scene->path, object->place.line, object->place.column, types[object->type], object->name, row,
-                size, why, 100 * share, far_out ? "move the scene to the origin of coordinates, or " : "");
+                scene->path, object->place.line, object->place.column, types[object->type],
+                body_name(place, name), size, why, 100 * share,
+                far_out ? "move the scene to the origin of coordinates, or " : "");
 }
 
 enum status float_limit_warn(const struct job *job)

@@ -92,31 +92,13 @@ static bool ends_in(const struct ray_tree *tree, const double picture[3])
     return true;
 }
 
-static enum status number_objects(struct pixel_trace *trace)
-{
-    const struct scene *scene = &trace->job->scene;
-    int order = 0;
-    trace->first_orders = calloc(scene->object_count + 1, sizeof *trace->first_orders);
-    if (!trace->first_orders) {
-        log_error("no memory for %zu objects", scene->object_count);
-        return STATUS_UNABLE;
-    }
-    for (size_t i = 0; i < scene->object_count; ++i) {
-        trace->first_orders[i] = order;
-        order += (int)object_body_count(&scene->objects[i]);
-    }
-    return STATUS_DONE;
-}
-
 enum status pixel_trace_create(struct vulkan_context *context, const struct job *job, enum precision against,
                                struct pixel_trace *trace)
 {
     const struct render_plan *plan = &job->plan;
     *trace = (struct pixel_trace){
         .job = job, .context = context, .against = against, .scale = pack_scale(&job->scene)};
-    enum status status = number_objects(trace);
-    if (status == STATUS_DONE)
-        status = ray_tree_on_cpu(plan, PRECISION_FLOAT, &trace->reference);
+    enum status status = ray_tree_on_cpu(plan, PRECISION_FLOAT, &trace->reference);
     if (status == STATUS_DONE && against != PRECISION_FLOAT)
         status = ray_tree_on_cpu(plan, against, &trace->exact);
     if (status == STATUS_DONE)
@@ -142,38 +124,17 @@ void pixel_trace_destroy(struct pixel_trace *trace)
     ray_tree_destroy(&trace->reference);
     ray_tree_destroy(&trace->exact);
     free(trace->steps);
-    free(trace->first_orders);
     *trace = (struct pixel_trace){0};
-}
-
-/* The object whose first body stands there or nearest before it; the last one, as others have none. */
-static size_t find_object(const struct pixel_trace *trace, int file_order)
-{
-    size_t object = 0, behind = trace->job->scene.object_count;
-    while (behind - object > 1) {
-        size_t middle = object + (behind - object) / 2;
-        if (trace->first_orders[middle] <= file_order)
-            object = middle;
-        else
-            behind = middle;
-    }
-    return object;
 }
 
 const char *surface_name(const struct pixel_trace *trace, double surface, char text[static SURFACE_NAME])
 {
     const struct packed_scene *packed = &trace->job->packed;
-    int i = (int)surface, plane = i - packed->sphere_count;
-    if (i < 0 || plane >= packed->plane_count)
+    if (surface < 0 || surface >= body_count(packed))
         return "nothing";
-    int file_order =
-        plane < 0 ? packed->spheres[i].tags.FILE_ORDER : packed->planes[plane].surface.tags.FILE_ORDER;
-    const size_t place = find_object(trace, file_order);
-    const struct scene_object *object = &trace->job->scene.objects[place];
-    if (object->type != OBJECT_SPHERES)
-        return object->name;
-    snprintf(text, SURFACE_NAME, "\"%s\" row %d", object->name, file_order - trace->first_orders[place]);
-    return text;
+    const struct body_place place =
+        body_find(&trace->job->scene, (size_t)body_file_order(packed, (int)surface));
+    return place.object->type == OBJECT_SPHERES ? body_name(place, text) : place.object->name;
 }
 
 const char *difference_bits(const struct pixel_trace *trace, const struct ray_tree *side,

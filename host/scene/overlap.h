@@ -1,19 +1,13 @@
 #ifndef VKWHITTED_SCENE_OVERLAP_H
 #define VKWHITTED_SCENE_OVERLAP_H
 
-#include "scene/scene.h"
+#include "scene/body.h"
 
 enum { OVERLAP_MOST_PAIRS = 1000 }; /* that are counted: a dense cloud of n spheres has n^2 / 2 */
 
-/* A plane or sphere, or a row of a file with spheres. */
-struct scene_body {
-    const struct scene_object *object;
-    size_t row;
-};
-
 struct overlaps {
     size_t pairs; /* OVERLAP_MOST_PAIRS: so many or more */
-    struct scene_body earlier,
+    struct body_place earlier,
         later; /* the pair that is complete first in the file; of its partners the first */
 };
 

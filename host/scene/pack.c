@@ -2,7 +2,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -63,10 +62,10 @@ static void pack_view(struct packing *packing)
     };
 }
 
-static PackedSurface pack_surface(const struct scene *scene, const struct scene_object *object, int order)
+static PackedSurface pack_surface(const struct scene *scene, const struct scene_object *object, size_t order)
 {
     const struct scene_material *material = &scene->materials[object->material];
-    PackedSurface surface = {.tags.FILE_ORDER = order};
+    PackedSurface surface = {.tags.FILE_ORDER = (int)order};
     double sigma_squared = material->roughness * material->roughness, ior = material->ior;
     switch (material->type) {
     case MATERIAL_MATTE:
@@ -105,11 +104,11 @@ static bool hides(const struct packed_scene *packed, int i, bool is_ball, layout
 }
 
 /* A plane, or a sphere that is looped over. */
-static void pack_body(struct packing *packing, const struct scene_object *object, size_t row, int order)
+static void pack_body(struct packing *packing, size_t number)
 {
     struct packed_scene *packed = packing->packed;
-    struct body body = body_of(object, row);
-    PackedSurface surface = pack_surface(packing->scene, object, order);
+    struct body body = body_numbered(packing->scene, number);
+    PackedSurface surface = pack_surface(packing->scene, body_find(packing->scene, number).object, number);
     surface.tags.OTHERS_BEFORE = packing->others_before;
     const bool giant = giant_is(packing->scene, body);
     bool turned = !body.is_ball && !is_transparent(&surface) &&
@@ -130,42 +129,26 @@ static void pack_body(struct packing *packing, const struct scene_object *object
     if (body.is_ball) {
         packed->giants |= (unsigned)giant << packed->sphere_count;
         packed->spheres[packed->sphere_count++] =
-            (struct PackedSphere){shape, {.SURFACE = packed->surface_count, .FILE_ORDER = order}};
+            (struct PackedSphere){shape, {.SURFACE = packed->surface_count, .FILE_ORDER = (int)number}};
         packed->surfaces[packed->surface_count++] = surface;
         packed->looped_spheres = packed->sphere_count;
     } else
         packed->planes[packed->plane_count++] = (struct PackedPlane){shape, surface};
 }
 
-static void pack_planes_and_looped(struct packing *packing)
+/* A sphere that is not looped over. */
+static bool is_other(const struct packing *packing, size_t number)
 {
-    const struct scene *scene = packing->scene;
-    size_t sphere = 0;
-    int order = 0;
-    for (size_t i = 0; i < scene->object_count; ++i)
-        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row, ++order)
-            if (scene->objects[i].type == OBJECT_PLANE || is_looped(&packing->looped, sphere++))
-                pack_body(packing, &scene->objects[i], row, order);
-            else
-                ++packing->others_before;
+    return body_numbered(packing->scene, number).is_ball && !is_looped(&packing->looped, number);
 }
 
-/* The other spheres of an object, whose first body has that place in the file; *sphere is its first one's
- * number. */
-static void pack_rows(struct packing *packing, const struct scene_object *object, int order, size_t *sphere)
+static void pack_planes_and_looped(struct packing *packing)
 {
-    struct packed_scene *packed = packing->packed;
-    const int surface = packed->surface_count, before = packed->sphere_count;
-    for (size_t row = 0; row < object_body_count(object); ++row) {
-        if (is_looped(&packing->looped, (*sphere)++))
-            continue;
-        const struct body body = body_of(object, row);
-        packed->spheres[packed->sphere_count++] = (struct PackedSphere){
-            to_vec4(dvec3_scale(packing->scale, body.vector), packing->scale * body.number),
-            {.SURFACE = surface, .FILE_ORDER = order + (int)row}};
-    }
-    if (packed->sphere_count > before)
-        packed->surfaces[packed->surface_count++] = pack_surface(packing->scene, object, order);
+    for (size_t i = 0; i < packing->scene->body_count; ++i)
+        if (is_other(packing, i))
+            ++packing->others_before;
+        else
+            pack_body(packing, i);
 }
 
 /* Whether the spheres that are not looped over are the same. */
@@ -198,16 +181,23 @@ static enum status find_hierarchy(struct packing *packing)
     return status;
 }
 
+/* They share their object's surface. */
 static enum status pack_others(struct packing *packing)
 {
     const struct scene *scene = packing->scene;
     struct packed_scene *packed = packing->packed;
-    size_t sphere = 0;
-    int order = 0;
-    for (size_t i = 0; i < scene->object_count; ++i) {
-        if (scene->objects[i].type != OBJECT_PLANE)
-            pack_rows(packing, &scene->objects[i], order, &sphere);
-        order += (int)object_body_count(&scene->objects[i]);
+    const struct scene_object *object = NULL;
+    for (size_t i = 0; i < scene->body_count; ++i) {
+        if (!is_other(packing, i))
+            continue;
+        const struct body body = body_numbered(scene, i);
+        if (body_find(scene, i).object != object) {
+            object = body_find(scene, i).object;
+            packed->surfaces[packed->surface_count++] = pack_surface(scene, object, object->first);
+        }
+        packed->spheres[packed->sphere_count++] = (struct PackedSphere){
+            to_vec4(dvec3_scale(packing->scale, body.vector), packing->scale * body.number),
+            {.SURFACE = packed->surface_count - 1, .FILE_ORDER = (int)i}};
     }
     return packed->sphere_count == packed->looped_spheres ? STATUS_DONE : find_hierarchy(packing);
 }
@@ -278,18 +268,17 @@ static void share_roughness(struct packed_scene *packed)
     }
 }
 
-/* Whether float's exponents suffice for a sphere of the object. */
-static bool is_large_enough(const struct packing *packing, const struct scene_object *object, size_t row)
+/* Whether float's exponents suffice for the body. */
+static bool is_large_enough(const struct packing *packing, size_t number)
 {
-    const struct body body = body_of(object, row);
-    char of_row[32] = "";
+    const struct body_place place = body_find(packing->scene, number);
+    const struct body body = body_numbered(packing->scene, number);
+    char name[BODY_NAME];
     if (!body.is_ball || body.number * packing->scale >= least_radius)
         return true;
-    if (object->type == OBJECT_SPHERES)
-        snprintf(of_row, sizeof of_row, " row %zu", row);
-    log_error("%s:%d:%d: sphere \"%s\"%s: radius must be at least %g of the scene's extent, %.3g, is %g",
-              packing->scene->path, object->place.line, object->place.column, object->name, of_row,
-              least_radius, least_radius / packing->scale, body.number);
+    log_error("%s:%d:%d: sphere %s: radius must be at least %g of the scene's extent, %.3g, is %g",
+              packing->scene->path, place.object->place.line, place.object->place.column,
+              body_name(place, name), least_radius, least_radius / packing->scale, body.number);
     return false;
 }
 
@@ -298,10 +287,9 @@ static enum status check_ranges(const struct packing *packing)
     const struct scene *scene = packing->scene;
     const struct packed_scene *packed = packing->packed;
     const double half = tan(scene->camera.fov_y_degrees / 180 * pi / 2);
-    for (size_t i = 0; i < scene->object_count; ++i)
-        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row)
-            if (!is_large_enough(packing, &scene->objects[i], row))
-                return STATUS_REFUSED;
+    for (size_t i = 0; i < scene->body_count; ++i)
+        if (!is_large_enough(packing, i))
+            return STATUS_REFUSED;
     if (half * (1 + (double)packed->width / packed->height) < widest)
         return STATUS_DONE;
     log_error("%s: fov_y %.17g is too near to 180 degrees for a picture of %dx%d", scene->path,
@@ -337,9 +325,8 @@ static double extent_of(const struct scene *scene, struct body body)
 double pack_scale(const struct scene *scene)
 {
     double extent = dvec3_largest(dvec3_of(scene->camera.position));
-    for (size_t i = 0; i < scene->object_count; ++i)
-        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row)
-            extent = fmax(extent, extent_of(scene, body_of(&scene->objects[i], row)));
+    for (size_t i = 0; i < scene->body_count; ++i)
+        extent = fmax(extent, extent_of(scene, body_numbered(scene, i)));
     for (size_t i = 0; i < scene->light_count; ++i) {
         const struct scene_light *light = &scene->lights[i];
         if (light->type == LIGHT_POINT)
