@@ -72,7 +72,7 @@ static inline struct rendering test_render_scene(const struct scene *scene, enum
 {
     struct packed_scene packed;
     struct picture_settings settings = test_settings(scene);
-    assert_int_equal(pack_scene(scene, &settings, &packed), STATUS_DONE);
+    assert_int_equal(pack_scene(NULL, scene, &settings, &packed), STATUS_DONE);
     struct rendering rendering = test_render(&packed, renderer, window);
     pack_destroy(&packed);
     return rendering;

@@ -1,15 +1,10 @@
 /* From a scene file to what finds its many spheres: each part shows a bar where it takes long, and the first
  * Ctrl-C ends it at once. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <fcntl.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -68,7 +63,7 @@ static void build_all(void)
     assert_int_equal(scene_read("a.yaml", &scene), STATUS_DONE);
     scene_warn(&scene);
     const struct picture_settings settings = test_settings(&scene);
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
     assert_int_equal(reference_scene(&packed, 2, &reference), STATUS_DONE);
     uint32_t(*records)[4] = calloc(sphere_record_count(&packed), sizeof *records);
     uint32_t *words = calloc(sphere_word_count(&packed), sizeof *words);

@@ -1,13 +1,9 @@
 /* Light samples earn their time: the error falls faster than independent points could make it. */
+#include "cmocka_test.h"
+
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-#include <cmocka.h>
 
 #include "base/statistics.h"
 #include "test_render.h"
@@ -23,7 +19,7 @@ static double *render(enum precision precision, unsigned light_samples)
     settings.width = WIDTH;
     settings.height = HEIGHT;
     settings.light_samples = light_samples;
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
     struct rendering rendering =
         test_render(&packed, precision == PRECISION_DOUBLE ? TEST_DOUBLE : TEST_FLOAT, (struct window){0});
     double *values = malloc(VALUES * sizeof *values);

@@ -1,14 +1,9 @@
 /* Spheres that are not looped over: with the tree that the host builds for it, the reference makes the
  * picture that it makes by trying all of them, and tells the same of each pixel. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <glob.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "failing_memory.h"
@@ -35,7 +30,7 @@ static struct packed_scene pack(const struct scene *scene)
     settings.width = WIDTH;
     settings.height = HEIGHT;
     settings.light_samples = 2;
-    assert_int_equal(pack_scene(scene, &settings, &packed), STATUS_DONE);
+    assert_int_equal(pack_scene(NULL, scene, &settings, &packed), STATUS_DONE);
     return packed;
 }
 
@@ -195,13 +190,13 @@ static void tree_where_needed(void **state)
     struct picture_settings settings = test_settings(&scene);
     struct packed_scene packed, moved, other, first, second;
     (void)state;
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
     scene.camera.fov_y_degrees /= 2;
     scene.background[0] = 0.25;
-    assert_int_equal(pack_scene_beside(&packed, &scene, &settings, &moved), STATUS_DONE);
+    assert_int_equal(pack_scene(&packed, &scene, &settings, &moved), STATUS_DONE);
     assert_true(moved.hierarchy == packed.hierarchy && packed.hierarchy->owners == 2);
     scene.objects[0].spheres.rows[7][3] *= 1.5F;
-    assert_int_equal(pack_scene_beside(&packed, &scene, &settings, &other), STATUS_DONE);
+    assert_int_equal(pack_scene(&packed, &scene, &settings, &other), STATUS_DONE);
     assert_ptr_not_equal(other.hierarchy, packed.hierarchy);
     assert_int_equal(reference_scene(&packed, 1, &first), STATUS_DONE);
     assert_non_null(first.tree);

@@ -1,13 +1,8 @@
 /* Spheres from a NumPy file: what is read of each kind of array, and what is said of other files. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <sys/stat.h>
 
 #include "npy_file.h"

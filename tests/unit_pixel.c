@@ -1,15 +1,10 @@
 /* What `pixel` shows is what the picture is made of: on the shipped scenes device and reference
  * tell the same steps, these add up to the picture's pixel, and the analysis bounds the error of each. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <glob.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "pixel/ray_tree.h"
@@ -28,7 +23,7 @@ static struct packed_scene pack(const char *path, unsigned samples)
     settings.height = HEIGHT;
     settings.samples = samples;
     settings.light_samples = 3;
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
     scene_destroy(&scene);
     return packed;
 }

@@ -1,14 +1,9 @@
 /* What --max-error promises, and truncation_bound: no pixel is farther from the picture with 64 bounces. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <glob.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "scene/truncation.h"
@@ -23,7 +18,7 @@ static struct packed_scene pack(const struct scene *scene, struct picture_settin
     settings.width = 72;
     settings.height = 48;
     settings.light_samples = 4;
-    assert_int_equal(pack_scene(scene, &settings, &packed), STATUS_DONE);
+    assert_int_equal(pack_scene(NULL, scene, &settings, &packed), STATUS_DONE);
     return packed;
 }
 
@@ -179,7 +174,7 @@ static void no_more_than_twice_the_fewest_rays(void **state)
         settings.has_max_error = true;
         settings.max_error = cases[i].max_error;
         struct packed_scene packed;
-        assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+        assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
         struct rendering rendering = render(&packed, false);
         uint64_t rays = rendering.rays.primary + rendering.rays.secondary;
         if (rays > 2 * cases[i].fewest)
@@ -303,7 +298,7 @@ static void random_scenes_keep_the_order(void **state)
         settings.height = 8;
         settings.max_bounces = (unsigned)uniform(3, 11);
         struct packed_scene all;
-        assert_int_equal(pack_scene(&scene, &settings, &all), STATUS_DONE);
+        assert_int_equal(pack_scene(NULL, &scene, &settings, &all), STATUS_DONE);
         struct render_plan plan = {
             .window = {0, 0, 12, 8},
             .precision = PRECISION_DOUBLE,
@@ -318,7 +313,7 @@ static void random_scenes_keep_the_order(void **state)
             struct packed_scene packed;
             settings.has_max_error = true;
             settings.max_error = max_error;
-            assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+            assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
             plan.scene = &packed;
             assert_int_equal(render_on_cpu(&plan, &got), STATUS_DONE);
             for (size_t i = 0; i < 12 * 8; ++i) {

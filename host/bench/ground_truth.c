@@ -162,7 +162,7 @@ enum status ground_truth_create(const struct scene *scene, const struct packed_s
     } else {
         snprintf(what, sizeof what, "quad (binary128) with %u bounces", settings.max_bounces);
     }
-    enum status status = pack_scene_beside(other, scene, &settings, &packed);
+    enum status status = pack_scene(other, scene, &settings, &packed);
     if (status != STATUS_DONE)
         return status;
     status = grid_render(&packed, kind == TRUTH_EXACT ? PRECISION_QUAD : PRECISION_DOUBLE, false, work,

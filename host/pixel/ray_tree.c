@@ -54,8 +54,8 @@ enum status ray_tree_on_device(struct vulkan_context *context, const struct rend
     if (status == STATUS_DONE)
         status = tracer_create(context, plan->scene, &options, &tracer);
     if (status == STATUS_DONE)
-        status = tracer_render(tracer, (struct window){plan->window.x, plan->window.y, 1, 1}, &image, &unseen,
-                               &unused);
+        status = tracer_render(tracer, (struct window){plan->window.x, plan->window.y, 1, 1},
+                               &(struct tracer_values){.image = &image}, &unseen, &unused);
     if (status == STATUS_DONE)
         status = allocate(tree, tracer_events(tracer, &events), kept);
     if (status == STATUS_DONE)

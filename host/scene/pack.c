@@ -341,14 +341,8 @@ double pack_scale(const struct scene *scene)
     return ldexp(1, -exponent);
 }
 
-enum status pack_scene(const struct scene *scene, const struct picture_settings *settings,
-                       struct packed_scene *packed)
-{
-    return pack_scene_beside(NULL, scene, settings, packed);
-}
-
-enum status pack_scene_beside(const struct packed_scene *other, const struct scene *scene,
-                              const struct picture_settings *settings, struct packed_scene *packed)
+enum status pack_scene(const struct packed_scene *other, const struct scene *scene,
+                       const struct picture_settings *settings, struct packed_scene *packed)
 {
     const struct looped looped = looped_choose(scene);
     *packed = (struct packed_scene){

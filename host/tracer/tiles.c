@@ -120,7 +120,7 @@ static enum status start_samples(struct course *course, struct dispatch_frame *f
     const struct dispatcher *dispatcher = course->tiles->dispatcher;
     frame->portion.first_sample = first;
     frame->portion.end_sample =
-        first + smaller(dispatcher->size.samples, (uint32_t)dispatcher->info->scene->samples - first);
+        first + smaller(dispatcher->size.samples, (uint32_t)dispatcher->scene->samples - first);
     frame->portion.goes_on = 0;
     frame->portion.most_turns = course->tiles->turns;
     return dispatch_frame_start(dispatcher, frame);
@@ -135,7 +135,7 @@ static enum status start_next_tile(struct course *course, struct dispatch_frame 
 {
     const struct tiles *tiles = course->tiles;
     const struct dispatch_size *size = &tiles->dispatcher->size;
-    const struct packed_scene *scene = tiles->dispatcher->info->scene;
+    const struct packed_scene *scene = tiles->dispatcher->scene;
     const unsigned rows = size->rows * size->group_height;
     if (course->x == 0) {
         const unsigned left = course->window.height - course->y;
@@ -188,7 +188,7 @@ static enum status advance(struct course *course, struct dispatch_frame *frame)
     enum { LEAST_PIXELS = 4096 };
     struct tiles *tiles = course->tiles;
     const struct dispatch_size *size = &tiles->dispatcher->size;
-    const uint32_t samples = (uint32_t)tiles->dispatcher->info->scene->samples;
+    const uint32_t samples = (uint32_t)tiles->dispatcher->scene->samples;
     uint32_t unfinished;
     double device_ms = 0;
     enum status status = dispatch_frame_wait(tiles->dispatcher, frame, &device_ms, &unfinished);
@@ -235,8 +235,8 @@ enum status tiles_render(struct tiles *tiles, struct window window, const struct
     struct course course = {.tiles = tiles, .window = window, .values = values, .progress = progress};
     *times = (struct tracer_times){0};
     if (values->rays)
-        *values->rays = (struct reference_rays){.primary = (uint64_t)window.width * window.height *
-                                                           (uint64_t)tiles->dispatcher->info->scene->samples};
+        values->rays->primary +=
+            (uint64_t)window.width * window.height * (uint64_t)tiles->dispatcher->scene->samples;
     enum status status = require_frames(tiles, &window);
     const double start = clock_ms();
     if (status == STATUS_DONE)

@@ -1,11 +1,6 @@
 /* The error analysis with the reference's tree of spheres against that of all of them: what the tree leaves
  * out has a margin of 1 at least. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "../cmocka_test.h"
 
 #include "hostile_spheres.h"
 #include "light_margin.h"

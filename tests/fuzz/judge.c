@@ -315,7 +315,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                                               .max_bounces = scene.max_bounces,
                                               .samples = sketch.samples,
                                               .light_samples = scene.light_samples};
-    if (pack_scene(&scene, &settings, &packed) == STATUS_DONE) {
+    if (pack_scene(NULL, &scene, &settings, &packed) == STATUS_DONE) {
         judge(&packed, &sketch);
         pack_destroy(&packed);
     }

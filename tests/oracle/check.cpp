@@ -149,7 +149,7 @@ bool check_scene(const char *path, int count)
     settings.samples = 1;
     settings.light_samples = std::min(scene.light_samples, most_light_samples);
     packed_scene packed;
-    bool right = pack_scene(&scene, &settings, &packed) == STATUS_DONE;
+    bool right = pack_scene(NULL, &scene, &settings, &packed) == STATUS_DONE;
     if (right) {
         right = check_packed(path, packed, count);
         pack_destroy(&packed);
