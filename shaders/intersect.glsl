@@ -169,13 +169,14 @@ Hit no_hit()
 Hit nearest_hit(Ray ray)
 {
     Hit nearest = no_hit();
-    FOR_EACH_OBJECT(i, SPHERES, {
+    for (int i = 0; i < SPHERES; ++i) {
         if (is_giant(i))
             meet_giant(ray, i, nearest);
         else
             meet_sphere(ray, i, nearest);
-    })
-    FOR_EACH_OBJECT(i, PLANES, meet_plane(ray, i, nearest);)
+    }
+    for (int i = 0; i < PLANES; ++i)
+        meet_plane(ray, i, nearest);
     if (HIERARCHY)
         search_nearest(ray, nearest);
     return nearest;
@@ -250,7 +251,7 @@ bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real dista
 {
     bool shadowed = false;
     TELL(light_blocker = -1;)
-    FOR_EACH_OBJECT(i, SPHERES, {
+    for (int i = 0; i < SPHERES; ++i) {
         bool shadows;
         if (is_giant(i))
             shadows = giant_shadows(i, point, surface, inward, to_light, distance, light);
@@ -260,15 +261,15 @@ bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real dista
         TELL(note_blocker(i, shadowed);)
         if (!PROCESSOR && shadowed) // lavapipe only masks what is skipped
             return true;
-    })
+    }
     if (HIERARCHY && !shadowed)
         shadowed = search_blocker(point, surface, inward, to_light, distance, light);
     if (PLANES_SHADOW)
-        FOR_EACH_OBJECT(i, PLANES, {
+        for (int i = 0; i < PLANES; ++i) {
             shadowed = plane_shadows(i, point, surface, light) || shadowed;
             TELL(note_blocker(ALL_SPHERES + i, shadowed);)
             if (!PROCESSOR && shadowed)
                 return true;
-        })
+        }
     return shadowed;
 }

@@ -89,10 +89,11 @@ real3 direct_light(Matte matte, uint sample_index, uint seed, inout Tally tally)
 {
     exact real3 sum = real3(0);
     if (POINT_LIGHTS > 0) // lavapipe runs the body of an empty loop once, masked
-        FOR_EACH_LIGHT(i, POINT_LIGHTS, sum = sum + point_light_radiance(matte, i, tally);)
+        for (int i = 0; i < POINT_LIGHTS; ++i)
+            sum = sum + point_light_radiance(matte, i, tally);
     if (QUAD_LIGHTS > 0)
-        FOR_EACH_LIGHT(i, QUAD_LIGHTS,
-                       sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), tally);)
+        for (int i = 0; i < QUAD_LIGHTS; ++i)
+            sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), tally);
     return sum;
 }
 

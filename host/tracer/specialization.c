@@ -51,14 +51,13 @@ struct specialization specialize(const struct vulkan_context *context, const str
         .processor = size->on_processor,
         .samples_apart = size->samples < (uint32_t)scene->samples,
         .light_points_a_turn = size->light_points_a_turn,
-        .objects_a_turn = (int32_t)size->objects_a_turn,
+        .giants = scene->giants,
         .hoisted = size->on_processor && scene->looped_spheres + scene->plane_count +
                                                  scene->point_light_count + scene->quad_light_count <=
                                              MOST_HOISTED,
         .primary_rays_first = size->primary_rays_first && options->event_room == 0,
         .all_spheres = scene->sphere_count,
         .most_steps = size->most_steps,
-        .giants = scene->giants,
     };
     int last_sphere_order = -1;
     for (int i = 0; i < scene->surface_count; ++i)

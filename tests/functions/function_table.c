@@ -14,7 +14,7 @@ enum {
     PLANE_AXES = 18,
     ENTERED_SPHERES = 20,
     ALL_SPHERES = 34,
-    GIANTS = 36,
+    GIANTS = 31,
 };
 
 const struct pass_constant common_constants[COMMON_CONSTANTS] = {
