@@ -4,7 +4,7 @@
 
 #include "dielectric.h"
 #include "geometry.h"
-#include "reference_events.h"
+#include "reference.h"
 
 static _Thread_local struct reference_log *event_log; /* NULL: nobody wants to know */
 

@@ -7,8 +7,7 @@
 
 /* Margin of sphere i's blocking the segment or not; *blocks gets which. */
 static inline double sphere_block_margin(const struct packed_scene *scene, int i,
-                                         const struct segment *segment, double e_from, double e_direction,
-                                         bool *blocks)
+                                         const struct segment *segment, struct ray_error error, bool *blocks)
 {
     const layout_ivec4 tags = scene->spheres[i].tags;
     const bool own = segment->surface == i;
@@ -22,12 +21,11 @@ static inline double sphere_block_margin(const struct packed_scene *scene, int i
         inside = inside || lies_inside(scene, i, segment->to);
     }
     if (!own && tags.HOLDS_RAYS != 0) {
-        margin = smaller(margin, inside_margin(scene, i, segment->from, e_from));
+        margin = smaller(margin, inside_margin(scene, i, segment->from, error.origin));
         inside = inside || lies_inside(scene, i, segment->from);
     }
     if (inside)
         return margin; /* where the ends lie decides all */
-    const struct ray_error error = {e_from, e_direction};
     struct conjunction blocked = conjunction_begin();
     if (is_giant(scene, i)) {
         struct giant giant = giant_of(scene, i);
@@ -37,13 +35,13 @@ static inline double sphere_block_margin(const struct packed_scene *scene, int i
         require_positive(&blocked, -line.slope, line.e_slope);
         require_positive(&blocked, line.root_squared, line.e_root_squared);
         require_positive(&blocked, bend + line.slope,
-                         line.e_slope + (double)giant.curvature * e_from + rounding(bend));
+                         line.e_slope + (double)giant.curvature * error.origin + rounding(bend));
     } else {
         struct tracked_approach approach =
             track_approach(scene->spheres[i].center_radius, segment->from, segment->direction, error);
         require_positive(&blocked, approach.along, approach.e_along);
         require_positive(&blocked, approach.clearance, approach.e_clearance);
-        require_positive(&blocked, (double)segment->length - approach.along, approach.e_along + e_from);
+        require_positive(&blocked, (double)segment->length - approach.along, approach.e_along + error.origin);
     }
     return smaller(margin, conjunction_margin(&blocked));
 }
@@ -81,19 +79,18 @@ static inline void add_blocker(struct shadow *shadow, bool blocks, double margin
 }
 
 static inline void add_sphere(const struct packed_scene *scene, int i, const struct segment *segment,
-                              double e_from, double e_direction, struct shadow *shadow)
+                              struct ray_error error, struct shadow *shadow)
 {
     bool blocks;
-    double margin = sphere_block_margin(scene, i, segment, e_from, e_direction, &blocks);
+    double margin = sphere_block_margin(scene, i, segment, error, &blocks);
     add_blocker(shadow, blocks, margin);
 }
 
 /* As tree_line_in_float(). */
-static inline struct tree_line tree_segment_in_float(const struct segment *segment, double e_from,
-                                                     double e_direction, double wanted)
+static inline struct tree_line tree_segment_in_float(const struct segment *segment, struct ray_error error,
+                                                     double wanted)
 {
-    struct tree_line line = tree_line_in_float(segment->from, segment->direction,
-                                               (struct ray_error){e_from, e_direction}, wanted);
+    struct tree_line line = tree_line_in_float(segment->from, segment->direction, error, wanted);
     line.has_end = true;
     line.end = to_tree_vector(segment->to);
     line.e_end = tree_rounding(segment->to) + wanted * rounding(length(segment->to));
@@ -102,18 +99,18 @@ static inline struct tree_line tree_segment_in_float(const struct segment *segme
 
 /* Those that the tree does not rule out, which looks ever closer as smaller margins are found. */
 static inline void add_tree_spheres(const struct packed_scene *scene, const struct segment *segment,
-                                    double e_from, double e_direction, struct shadow *shadow)
+                                    struct ray_error error, struct shadow *shadow)
 {
     if (is_in_tree(scene, segment->surface))
-        add_sphere(scene, segment->surface, segment, e_from, e_direction, shadow);
+        add_sphere(scene, segment->surface, segment, error, shadow);
     double wanted = smaller(shadow->weakest, 1);
-    const struct tree_line line = tree_segment_in_float(segment, e_from, e_direction, wanted);
+    const struct tree_line line = tree_segment_in_float(segment, error, wanted);
     struct sphere_walk walk = sphere_walk_begin(scene->tree, &line, (double)segment->length);
     for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;) {
-        add_sphere(scene, i, segment, e_from, e_direction, shadow);
+        add_sphere(scene, i, segment, error, shadow);
         if (shadow->weakest < wanted) {
             wanted = shadow->weakest;
-            walk.line = tree_segment_in_float(segment, e_from, e_direction, wanted);
+            walk.line = tree_segment_in_float(segment, error, wanted);
         }
     }
 }
@@ -121,17 +118,17 @@ static inline void add_tree_spheres(const struct packed_scene *scene, const stru
 /* Margin of the light point's being hidden; *hides gets whether it is. Where it is not, a margin of at least
  * 1 may be larger with a tree. */
 static inline double shadow_margin(const struct packed_scene *scene, const struct segment *segment,
-                                   double e_from, double e_direction, bool *hides)
+                                   struct ray_error error, bool *hides)
 {
     struct shadow shadow = {.weakest = INFINITY};
     for (int i = 0; i < tried_spheres(scene); ++i)
-        add_sphere(scene, i, segment, e_from, e_direction, &shadow);
+        add_sphere(scene, i, segment, error, &shadow);
     if (scene->tree)
-        add_tree_spheres(scene, segment, e_from, e_direction, &shadow);
+        add_tree_spheres(scene, segment, error, &shadow);
     for (int i = 0; i < scene->plane_count; ++i) {
         bool blocks;
         double margin =
-            plane_block_margin(&scene->planes[i], scene->sphere_count + i, segment, e_from, &blocks);
+            plane_block_margin(&scene->planes[i], scene->sphere_count + i, segment, error.origin, &blocks);
         add_blocker(&shadow, blocks, margin);
     }
     *hides = shadow.hides;
@@ -214,8 +211,8 @@ track_receive(const struct packed_scene *scene, const struct matte_point *matte,
     const double falloff = 1 / (distance * distance), largest_falloff = 1 / (nearest * nearest);
     struct conjunction lit = conjunction_begin();
     bool hides = false;
-    const double shadow = shadow_margin(scene, &segment, errors_length(point->hit.point),
-                                        errors_length(sample.e_direction), &hides);
+    const struct ray_error error = {errors_length(point->hit.point), errors_length(sample.e_direction)};
+    const double shadow = shadow_margin(scene, &segment, error, &hides);
     sample.may_hide = shadow < 1;
     if (!hides || sample.may_hide)
         sample.error = (factor + e_factor) * largest_falloff - (sample.may_hide ? 0 : factor * falloff) +

@@ -1,6 +1,7 @@
 #ifndef VKWHITTED_REFERENCE_H
 #define VKWHITTED_REFERENCE_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "packed_scene.h"
@@ -16,7 +17,19 @@ static inline void rays_add(struct reference_rays *sum, struct reference_rays mo
     sum->shadow += more.shadow;
 }
 
-struct reference_log;
+/* One step of a pixel's ray tree; scene_layout.h says what the kinds hold. Lengths are in scene units. */
+struct reference_event {
+    struct EventHead head;
+    double values[EVENT_VALUES];
+    double bounds[EVENT_VALUES]; /* on float's error in each value; the analysis alone knows it */
+    double margin; /* of the decisions made here, as in margin.h; INFINITY where there are none */
+};
+
+/* Events in the order of the recursion. Those beyond the room are counted and not kept. */
+struct reference_log {
+    struct reference_event *events;
+    size_t room, count;
+};
 
 /* A pixel, and what was traced for it. */
 struct reference_pixel {
@@ -28,7 +41,7 @@ struct reference_pixel {
 
 /* Traces the pixel at (x, y) of the scene's picture, from the top left, in float, double or binary128. The
  * float build computes what the shader does in exact mode, operation by operation. What happens is appended
- * to the log of reference_events.h, if there is one. */
+ * to the log, if there is one. */
 typedef struct reference_pixel reference_tracer(const struct packed_scene *scene, int x, int y,
                                                 struct reference_log *log);
 reference_tracer reference_trace_float, reference_trace_double, reference_trace_quad;

@@ -4,7 +4,6 @@
 #include <stdio.h>
 
 #include "reference.h"
-#include "reference_events.h"
 #include "scene/body.h"
 #include "scene/pack.h"
 #include "tracer/reference_scene.h"

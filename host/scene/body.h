@@ -47,6 +47,17 @@ static inline const PackedSurface *body_surface(const struct packed_scene *scene
                                    : &scene->planes[i - scene->sphere_count].surface;
 }
 
+/* Each of the surfaces that bodies have: those of spheres, then those of planes. */
+static inline int packed_surface_count(const struct packed_scene *scene)
+{
+    return scene->surface_count + scene->plane_count;
+}
+
+static inline const PackedSurface *packed_surface(const struct packed_scene *scene, int i)
+{
+    return i < scene->surface_count ? &scene->surfaces[i] : &scene->planes[i - scene->surface_count].surface;
+}
+
 /* Its place in the scene file, where each row of a file of spheres counts. */
 static inline int body_file_order(const struct packed_scene *scene, int i)
 {

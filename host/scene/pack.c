@@ -24,6 +24,11 @@ static const double least_radius = 0x1p-50;
  * finite. */
 static const double widest = 0x1p60;
 
+/* In scene units. A larger ball is stored as one of this radius, with the same surface at the origin: its
+ * horizon, seen from height h, is lower by sqrt(2 h / r) or less, 2^-15.5 radians. Of still larger ones,
+ * doubles would not tell on which side of the surface the camera is. */
+static const double largest_radius = 0x1p32;
+
 struct packing {
     const struct scene *scene;
     double scale; /* from metres to scene units, a power of two */
@@ -103,6 +108,15 @@ static bool hides(const struct packed_scene *packed, int i, bool is_ball, layout
            first.y == shape.y && first.z == shape.z && first.w == shape.w;
 }
 
+/* See scene_layout.h; the giant's lengths are in scene units. */
+static layout_vec4 pack_giant(struct body giant, PackedSurface *surface)
+{
+    const double height = giant_height(giant), curvature = 1 / fmin(giant.number, largest_radius);
+    surface->more_parameters.CURVATURE = to_float(curvature);
+    return to_vec4(dvec3_scale(-(1 - curvature * height), dvec3_unit(giant.vector)),
+                   height * (1 - curvature * height / 2));
+}
+
 /* A plane, or a sphere that is looped over. */
 static void pack_body(struct packing *packing, size_t number)
 {
@@ -116,12 +130,7 @@ static void pack_body(struct packing *packing, size_t number)
     double sign = turned ? -1 : 1;
     body.vector = dvec3_scale(body.is_ball ? packing->scale : sign, body.vector);
     body.number = sign * packing->scale * body.number;
-    layout_vec4 shape = to_vec4(body.vector, body.number);
-    if (giant) {
-        const struct giant_shape giant_shape = giant_shape_of(body);
-        shape = to_vec4(giant_shape.gradient, giant_shape.offset);
-        surface.more_parameters.CURVATURE = to_float(giant_shape.curvature);
-    }
+    const layout_vec4 shape = giant ? pack_giant(body, &surface) : to_vec4(body.vector, body.number);
     for (int i = 0; i < body_count(packed); ++i)
         if (hides(packed, i, body.is_ball, shape, surface.more_parameters.CURVATURE))
             return;
@@ -258,10 +267,8 @@ static enum status pack_light(struct packing *packing, const struct scene_light 
 /* The last one's, to be used where all are the same. */
 static void share_roughness(struct packed_scene *packed)
 {
-    for (int i = 0; i < packed->surface_count + packed->plane_count; ++i) {
-        const PackedSurface *surface = i < packed->surface_count
-                                           ? &packed->surfaces[i]
-                                           : &packed->planes[i - packed->surface_count].surface;
+    for (int i = 0; i < packed_surface_count(packed); ++i) {
+        const PackedSurface *surface = packed_surface(packed, i);
         if (surface->tags.SURFACE_KIND == KIND_MATTE)
             packed->view.matte = (layout_vec4){.SHARED_A = surface->parameters.OREN_NAYAR_A,
                                                .SHARED_B = surface->more_parameters.OREN_NAYAR_B};

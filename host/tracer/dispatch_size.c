@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include "scene/body.h"
+
 /* Turns of loops, those over objects and lights included, that an invocation may make with primary rays, and
  * again with the others. Lavapipe ends all loops of an invocation after 65535 turns, without a word; a
  * graphics card's watchdog bites after some seconds. */
@@ -22,10 +24,8 @@ static uint64_t smaller(uint64_t a, uint64_t b)
 static bool has_kind(const struct packed_scene *scene, int kind)
 {
     bool found = false;
-    for (int i = 0; i < scene->surface_count; ++i)
-        found = found || scene->surfaces[i].tags.SURFACE_KIND == kind;
-    for (int i = 0; i < scene->plane_count; ++i)
-        found = found || scene->planes[i].surface.tags.SURFACE_KIND == kind;
+    for (int i = 0; i < packed_surface_count(scene); ++i)
+        found = found || packed_surface(scene, i)->tags.SURFACE_KIND == kind;
     return found;
 }
 
@@ -60,7 +60,8 @@ static void choose_steps(const struct vulkan_context *context, struct dispatch_s
 }
 
 /* Loops may be unrolled or not: all their turns are counted. A scene file has 18,000 planes at most, so that
- * one turn of the loop over rays, twice over all objects and once more where rays escape, is fewer than 65535. */
+ * one turn of the loop over rays, twice over all objects and once more where rays escape, is fewer than
+ * 65535. */
 static void choose_turns(const struct packed_scene *scene, bool primary_first, struct dispatch_size *size)
 {
     const uint64_t objects = (uint64_t)(scene->looped_spheres + scene->plane_count);

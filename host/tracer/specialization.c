@@ -60,8 +60,8 @@ struct specialization specialize(const struct vulkan_context *context, const str
         .most_steps = size->most_steps,
     };
     int last_sphere_order = -1;
-    for (int i = 0; i < scene->surface_count; ++i)
-        note_surface(&constants, scene, &scene->surfaces[i]);
+    for (int i = 0; i < packed_surface_count(scene); ++i)
+        note_surface(&constants, scene, packed_surface(scene, i));
     for (int i = 0; i < scene->sphere_count; ++i) {
         const layout_ivec4 tags = scene->spheres[i].tags;
         constants.spheres_hold_rays |= tags.HOLDS_RAYS != 0;
@@ -73,7 +73,6 @@ struct specialization specialize(const struct vulkan_context *context, const str
     }
     for (int i = 0; i < scene->plane_count; ++i) {
         const PackedSurface *surface = &scene->planes[i].surface;
-        note_surface(&constants, scene, surface);
         constants.glass_planes |= surface->tags.SURFACE_KIND == KIND_TRANSPARENT;
         constants.planes_shadow |= surface->tags.CASTS_SHADOWS != 0;
         constants.mixed_order |= surface->tags.FILE_ORDER < last_sphere_order;

@@ -1,16 +1,10 @@
-#include "tracer/tracer.h"
+#include "tracer/tiles.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "tracer/shader_folder.h"
-#include "tracer/tiles.h"
 #include "vulkan/probe.h"
-
-struct tracer {
-    struct dispatcher dispatcher;
-    struct tiles tiles;
-};
 
 struct shader_choice tracer_shader(const struct vulkan_context *context, const struct packed_scene *scene,
                                    const struct tracer_options *options)
@@ -50,7 +44,8 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
         status = shader_folder_code(options->shaders, dispatcher->choice, &dispatcher->options.code);
     if (status == STATUS_DONE)
         status = dispatcher_create(dispatcher);
-    tiles_create(dispatcher, &tracer->tiles);
+    tracer->pixels = dispatcher->size.tile_pixels;
+    tracer->turns = dispatcher->size.most_turns;
     if (status != STATUS_DONE)
         tracer_destroy(pointer);
     return status;
@@ -62,7 +57,7 @@ void tracer_destroy(struct tracer **pointer)
     *pointer = NULL;
     if (!tracer)
         return;
-    tiles_destroy(&tracer->tiles);
+    tiles_destroy(tracer);
     dispatcher_destroy(&tracer->dispatcher);
     free(tracer);
 }
@@ -79,15 +74,9 @@ bool tracer_update(struct tracer *tracer, const struct packed_scene *scene)
     return true;
 }
 
-enum status tracer_render(struct tracer *tracer, struct window window, const struct tracer_values *values,
-                          struct progress *progress, struct tracer_times *times)
-{
-    return tiles_render(&tracer->tiles, window, values, progress, times);
-}
-
 uint32_t tracer_events(const struct tracer *tracer, const void **events)
 {
-    const struct event_block *block = tracer->tiles.frames[0].buffers[EVENTS].mapped;
+    const struct event_block *block = tracer->frames[0].buffers[EVENTS].mapped;
     *events = block + 1;
     return block->count;
 }
