@@ -63,7 +63,7 @@ static void build_all(void)
     assert_int_equal(scene_read("a.yaml", &scene), STATUS_DONE);
     scene_warn(&scene);
     const struct picture_settings settings = test_settings(&scene);
-    assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
+    packed = test_pack(&scene, settings);
     assert_int_equal(reference_scene(&packed, 2, &reference), STATUS_DONE);
     uint32_t(*records)[4] = calloc(sphere_record_count(&packed), sizeof *records);
     uint32_t *words = calloc(sphere_word_count(&packed), sizeof *words);

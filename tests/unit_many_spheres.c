@@ -26,12 +26,10 @@ static void build_hierarchy(struct packed_scene *packed)
 static struct packed_scene pack(const struct scene *scene)
 {
     struct picture_settings settings = test_settings(scene);
-    struct packed_scene packed;
     settings.width = WIDTH;
     settings.height = HEIGHT;
     settings.light_samples = 2;
-    assert_int_equal(pack_scene(NULL, scene, &settings, &packed), STATUS_DONE);
-    return packed;
+    return test_pack(scene, settings);
 }
 
 static struct render_plan plan_of(const struct packed_scene *packed)
@@ -190,7 +188,7 @@ static void tree_where_needed(void **state)
     struct picture_settings settings = test_settings(&scene);
     struct packed_scene packed, moved, other, first, second;
     (void)state;
-    assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
+    packed = test_pack(&scene, settings);
     scene.camera.fov_y_degrees /= 2;
     scene.background[0] = 0.25;
     assert_int_equal(pack_scene(&packed, &scene, &settings, &moved), STATUS_DONE);

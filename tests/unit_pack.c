@@ -98,9 +98,9 @@ static void scaling_by_powers_of_two(void **state)
             struct packed_scene packed, scaled;
             struct scene scene = test_read(names[i]);
             struct picture_settings settings = test_settings(&scene);
-            assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
+            packed = test_pack(&scene, settings);
             scale_scene(&scene, ldexp(1, exponents[k]));
-            assert_int_equal(pack_scene(NULL, &scene, &settings, &scaled), STATUS_DONE);
+            scaled = test_pack(&scene, settings);
             check_same(&packed, &scaled);
             scene_destroy(&scene);
             pack_destroy(&packed);
@@ -314,12 +314,12 @@ static void directions_of_any_length(void **state)
     struct scene scene = test_read("scenes/figure_2b.yaml");
     struct picture_settings settings = test_settings(&scene);
     struct packed_scene usual, packed;
-    assert_int_equal(pack_scene(NULL, &scene, &settings, &usual), STATUS_DONE);
+    usual = test_pack(&scene, settings);
     scale_lengths(scene.camera.up, 0x1p-1074);
     for (size_t i = 0; i < scene.object_count; ++i)
         if (scene.objects[i].type == OBJECT_PLANE)
             scale_lengths(scene.objects[i].plane.normal, 0x1p-1074);
-    assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
+    packed = test_pack(&scene, settings);
     check_same(&usual, &packed);
     scene_destroy(&scene);
     pack_destroy(&usual);

@@ -18,12 +18,11 @@ static struct packed_scene pack(const char *path, unsigned samples)
     struct scene scene;
     assert_int_equal(scene_read(path, &scene), STATUS_DONE);
     struct picture_settings settings = test_settings(&scene);
-    struct packed_scene packed;
     settings.width = WIDTH;
     settings.height = HEIGHT;
     settings.samples = samples;
     settings.light_samples = 3;
-    assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
+    struct packed_scene packed = test_pack(&scene, settings);
     scene_destroy(&scene);
     return packed;
 }

@@ -23,10 +23,9 @@ static struct image whole_pictures[SCENES];
 static struct packed_scene pack(const char *name)
 {
     struct scene scene = test_read(name);
-    struct packed_scene packed;
     const struct picture_settings settings = {
         .width = WIDTH, .height = HEIGHT, .max_bounces = 5, .samples = 2, .light_samples = 3};
-    assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
+    struct packed_scene packed = test_pack(&scene, settings);
     scene_destroy(&scene);
     return packed;
 }
@@ -173,11 +172,10 @@ static void ray_counts_of_one_pixel(void **state)
     enum { SAMPLES = 513, LIGHT_SAMPLES = 32767 };
     (void)state;
     struct scene scene = test_read("scenes/figure_2b.yaml");
-    struct packed_scene packed;
     struct picture_settings settings = test_settings(&scene);
     settings.samples = SAMPLES;
     settings.light_samples = LIGHT_SAMPLES;
-    assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
+    struct packed_scene packed = test_pack(&scene, settings);
     scene_destroy(&scene);
     struct render_plan plan = {.scene = &packed, .window = {300, 350, 1, 1}, .quiet = true};
     struct reference_rays rays = {1, 2, 3};

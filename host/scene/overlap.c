@@ -1,11 +1,13 @@
 #include "scene/overlap.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/progress.h"
 #include "scene/body.h"
 #include "scene/pack.h"
 
+enum { MOST_PAIRS = 1000 }; /* that are counted: a dense cloud of n spheres has n^2 / 2 */
 enum { FIRST_BLOCK = 64, MOST_IN_BLOCK = 1 << 16, LEAST_PARALLEL = 4096 }; /* bodies */
 
 /* The transparent bodies of a scene. */
@@ -91,31 +93,42 @@ static bool is_transparent(const struct scene *scene, size_t number)
     return scene->materials[body_find(scene, number).object->material].type == MATERIAL_TRANSPARENT;
 }
 
+static void warn(const struct scene *scene, size_t pairs, struct body_place earlier, struct body_place later)
+{
+    char others[64] = "", earlier_name[BODY_NAME], later_name[BODY_NAME];
+    if (pairs > 1)
+        snprintf(others, sizeof others, " (and %s%zu other pair%s)", pairs >= MOST_PAIRS ? "at least " : "",
+                 pairs >= MOST_PAIRS ? MOST_PAIRS - 1 : pairs - 1, pairs > 2 ? "s" : "");
+    log_warning("%s:%d:%d: transparent bodies %s and %s overlap%s, which the model does not cover; a body "
+                "wholly inside another is no mistake, if its ior is relative to that one's (air in glass: "
+                "1/1.5)",
+                scene->path, later.object->place.line, later.object->place.column,
+                body_name(earlier, earlier_name), body_name(later, later_name), others);
+}
+
 /* Block after block, so that the first pair is known when there are enough. */
-static void find_pairs(const struct search *search, struct overlaps *overlaps)
+static void find_pairs(const struct search *search)
 {
     const struct scene *scene = search->scene;
     size_t pairs = 0, later = SIZE_MAX;
     struct progress progress;
     progress_start(&progress, "looking for overlaps", scene->body_count, false);
-    for (size_t first = 0, size = FIRST_BLOCK, end; first < scene->body_count && pairs < OVERLAP_MOST_PAIRS;
+    for (size_t first = 0, size = FIRST_BLOCK, end; first < scene->body_count && pairs < MOST_PAIRS;
          first = end, size = size < MOST_IN_BLOCK ? 2 * size : size) {
         end = scene->body_count - first < size ? scene->body_count : first + size;
 #pragma omp parallel for reduction(+ : pairs) reduction(min : later) schedule(dynamic, 16)                           \
     if (scene->body_count > LEAST_PARALLEL)
         for (size_t i = first; i < end; ++i) {
-            size_t found = is_transparent(scene, i) ? find_partners(search, i, OVERLAP_MOST_PAIRS).pairs : 0;
+            size_t found = is_transparent(scene, i) ? find_partners(search, i, MOST_PAIRS).pairs : 0;
             pairs += found;
             later = found > 0 && i < later ? i : later;
         }
         progress_advance(&progress, end - first);
     }
     progress_end(&progress);
-    if (pairs == 0)
-        return;
-    overlaps->pairs = pairs < OVERLAP_MOST_PAIRS ? pairs : OVERLAP_MOST_PAIRS;
-    overlaps->later = body_find(scene, later);
-    overlaps->earlier = body_find(scene, find_partners(search, later, SIZE_MAX).first);
+    if (pairs > 0)
+        warn(scene, pairs, body_find(scene, find_partners(search, later, SIZE_MAX).first),
+             body_find(scene, later));
 }
 
 static void collect(struct search *search)
@@ -133,15 +146,14 @@ static void collect(struct search *search)
     }
 }
 
-enum status overlaps_find(const struct scene *scene, struct overlaps *overlaps)
+void overlaps_warn(const struct scene *scene)
 {
     struct search search = {.scene = scene, .scale = pack_scale(scene)};
-    *overlaps = (struct overlaps){.pairs = 0};
     for (size_t i = 0; i < scene->body_count; ++i)
         if (is_transparent(scene, i))
             ++*(body_numbered(scene, i).is_ball ? &search.sphere_count : &search.plane_count);
     if (search.sphere_count + search.plane_count < 2)
-        return STATUS_DONE;
+        return;
     search.planes = calloc(search.plane_count + 1, sizeof *search.planes);
     search.spheres = calloc(search.sphere_count + 1, sizeof *search.spheres);
     enum status status = STATUS_UNABLE;
@@ -154,9 +166,10 @@ enum status overlaps_find(const struct scene *scene, struct overlaps *overlaps)
         log_error("%s: no memory to compare %zu transparent bodies", scene->path,
                   search.sphere_count + search.plane_count);
     if (status == STATUS_DONE)
-        find_pairs(&search, overlaps);
+        find_pairs(&search);
+    else
+        log_warning("%s: transparent bodies may overlap", scene->path);
     hierarchy_destroy(&search.hierarchy);
     free(search.planes);
     free(search.spheres);
-    return status;
 }

@@ -1,26 +1,5 @@
-#include <stdio.h>
-
+#include "scene/body.h"
 #include "scene/overlap.h"
-
-static void warn_of_overlaps(const struct scene *scene)
-{
-    struct overlaps overlaps;
-    char others[64] = "", earlier[BODY_NAME], later[BODY_NAME];
-    enum status status = overlaps_find(scene, &overlaps);
-    if (status == STATUS_UNABLE)
-        log_warning("%s: transparent bodies may overlap", scene->path);
-    if (status != STATUS_DONE || overlaps.pairs == 0)
-        return;
-    if (overlaps.pairs > 1)
-        snprintf(others, sizeof others, " (and %s%zu other pair%s)",
-                 overlaps.pairs == OVERLAP_MOST_PAIRS ? "at least " : "", overlaps.pairs - 1,
-                 overlaps.pairs > 2 ? "s" : "");
-    log_warning("%s:%d:%d: transparent bodies %s and %s overlap%s, which the model does not cover; a body "
-                "wholly inside another is no mistake, if its ior is relative to that one's (air in glass: "
-                "1/1.5)",
-                scene->path, overlaps.later.object->place.line, overlaps.later.object->place.column,
-                body_name(overlaps.earlier, earlier), body_name(overlaps.later, later), others);
-}
 
 /* Whether the light shines on some point of a matte object; turned: with u and v swapped. */
 static bool shines_on_any(const struct scene *scene, const struct scene_light *light, bool turned)
@@ -57,6 +36,6 @@ static void warn_of_lights(const struct scene *scene)
 
 void scene_warn(const struct scene *scene)
 {
-    warn_of_overlaps(scene);
+    overlaps_warn(scene);
     warn_of_lights(scene);
 }

@@ -216,8 +216,8 @@ static enum status run(struct course *course)
     return status;
 }
 
-enum status tracer_render(struct tracer *tracer, struct window window, const struct tracer_values *values,
-                          struct progress *progress, struct tracer_times *times)
+enum status tiles_render(struct tracer *tracer, struct window window, const struct tracer_values *values,
+                         struct progress *progress, struct tracer_times *times)
 {
     struct course course = {.tracer = tracer, .window = window, .values = values, .progress = progress};
     *times = (struct tracer_times){0};

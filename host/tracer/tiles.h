@@ -1,8 +1,9 @@
 #ifndef VKWHITTED_TRACER_TILES_H
 #define VKWHITTED_TRACER_TILES_H
 
+#include "base/progress.h"
 #include "tracer/dispatch.h"
-#include "tracer/tracer.h"
+#include "tracer/values.h"
 
 enum { FRAMES = 2 };
 
@@ -15,6 +16,10 @@ struct tracer {
     unsigned pixels;                     /* of a tile, at most */
     uint32_t turns;                      /* of a dispatch, at most */
 };
+
+/* As tracer_render(). */
+enum status tiles_render(struct tracer *tracer, struct window window, const struct tracer_values *values,
+                         struct progress *progress, struct tracer_times *times);
 
 /* Destroys the frames there are. */
 void tiles_destroy(struct tracer *tracer);

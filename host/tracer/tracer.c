@@ -1,9 +1,10 @@
-#include "tracer/tiles.h"
+#include "tracer/tracer.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "tracer/shader_folder.h"
+#include "tracer/tiles.h"
 #include "vulkan/probe.h"
 
 struct shader_choice tracer_shader(const struct vulkan_context *context, const struct packed_scene *scene,
@@ -72,6 +73,12 @@ bool tracer_update(struct tracer *tracer, const struct packed_scene *scene)
         return false;
     dispatcher->scene = scene;
     return true;
+}
+
+enum status tracer_render(struct tracer *tracer, struct window window, const struct tracer_values *values,
+                          struct progress *progress, struct tracer_times *times)
+{
+    return tiles_render(tracer, window, values, progress, times);
 }
 
 uint32_t tracer_events(const struct tracer *tracer, const void **events)
