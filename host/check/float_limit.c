@@ -26,24 +26,20 @@ struct off_pixel {
     double distance;
 };
 
-static bool is_off(const struct packed_scene *scene, int x, int y)
-{
-    const struct reference_pixel in_float = reference_trace_float(scene, x, y, NULL),
-                                 exact = reference_trace_double(scene, x, y, NULL);
-    bool off = false;
-    for (int c = 0; c < 3; ++c)
-        off |= !(fabs(in_float.rgb[c] - exact.rgb[c]) < off_by * fmax(fabs(exact.rgb[c]), darkest));
-    return off;
-}
-
-static struct off_pixel look_at(const struct packed_scene *scene, int x, int y)
+/* Whether the pixel is off; what it shows. */
+static bool is_off(const struct packed_scene *scene, int x, int y, struct off_pixel *shown)
 {
     struct reference_event events[2]; /* the primary ray and its hit */
     struct reference_log log = {.events = events, .room = 2};
-    reference_trace_double(scene, x, y, &log);
-    if (log.count < 2 || events[1].head.place.EVENT_KIND != EVENT_HIT)
-        return (struct off_pixel){.surface = -1};
-    return (struct off_pixel){events[1].head.facts.EVENT_SURFACE, events[1].values[6]};
+    const struct reference_pixel in_float = reference_trace_float(scene, x, y, NULL),
+                                 exact = reference_trace_double(scene, x, y, &log);
+    bool off = false;
+    for (int c = 0; c < 3; ++c)
+        off |= !(fabs(in_float.rgb[c] - exact.rgb[c]) < off_by * fmax(fabs(exact.rgb[c]), darkest));
+    const bool hits = log.count >= 2 && events[1].head.place.EVENT_KIND == EVENT_HIT;
+    *shown = (struct off_pixel){.surface = hits ? events[1].head.facts.EVENT_SURFACE : -1,
+                                .distance = hits ? events[1].values[6] : 0};
+    return off;
 }
 
 /* The number of pixels that are off, among those looked at. */
@@ -53,8 +49,7 @@ static size_t find_off_pixels(const struct packed_scene *scene, struct off_pixel
     for (int i = 0; i < SIDE * SIDE; ++i) {
         const int x = (int)((2 * (i % SIDE) + 1) * (int64_t)scene->width / (2 * SIDE));
         const int y = (int)((2 * (i / SIDE) + 1) * (int64_t)scene->height / (2 * SIDE));
-        if (is_off(scene, x, y))
-            off[count++] = look_at(scene, x, y);
+        count += is_off(scene, x, y, &off[count]);
     }
     return count;
 }

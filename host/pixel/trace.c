@@ -65,12 +65,11 @@ static enum status find_steps(struct pixel_trace *trace)
     return STATUS_DONE;
 }
 
-/* The pixel as the picture has it; the reference's without a context. */
+/* The pixel as the picture has it. */
 static enum status render_pixel(struct vulkan_context *context, const struct render_plan *plan, double rgb[3])
 {
     struct rendering rendering;
-    enum status status =
-        context ? render_on_device(context, plan, &rendering) : render_on_cpu(plan, &rendering);
+    enum status status = render_on_device(context, plan, &rendering);
     if (status != STATUS_DONE)
         return status;
     const struct image *image = &rendering.image;
@@ -80,16 +79,17 @@ static enum status render_pixel(struct vulkan_context *context, const struct ren
     return STATUS_DONE;
 }
 
-/* Whether the tree ends in the picture's pixel; what was not recorded cannot tell. */
-static bool ends_in(const struct ray_tree *tree, const double picture[3])
+/* Whether the device's tree ends in the picture's pixel; what was not recorded cannot tell. */
+static bool is_the_pictures(const struct pixel_trace *trace)
 {
+    const struct ray_tree *tree = &trace->device;
     const struct reference_event *last = tree->count > 0 ? &tree->events[tree->count - 1] : NULL;
     if (!last || last->head.place.EVENT_KIND != EVENT_PIXEL)
         return tree->beyond > 0;
+    bool agree = true;
     for (int c = 0; c < 3; ++c)
-        if (!event_values_agree(picture[c], last->values[c]))
-            return false;
-    return true;
+        agree = agree && event_values_agree(trace->picture[c], last->values[c]);
+    return agree;
 }
 
 enum status pixel_trace_create(struct vulkan_context *context, const struct job *job, enum precision against,
@@ -107,12 +107,9 @@ enum status pixel_trace_create(struct vulkan_context *context, const struct job 
     if (status == STATUS_DONE)
         status = render_pixel(context, plan, trace->picture);
     if (status == STATUS_DONE)
-        status = render_pixel(NULL, plan, trace->reference_picture);
-    if (status == STATUS_DONE)
         status = find_steps(trace);
     trace->difference = ray_trees_compare(&trace->device, &trace->reference);
-    trace->is_the_pictures =
-        ends_in(&trace->device, trace->picture) && ends_in(&trace->reference, trace->reference_picture);
+    trace->is_the_pictures = is_the_pictures(trace);
     if (status != STATUS_DONE)
         pixel_trace_destroy(trace);
     return status;

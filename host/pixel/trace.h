@@ -21,8 +21,8 @@ struct pixel_trace {
     struct step
         *steps; /* the device's in their order, then the reference's, empty where the device has them */
     size_t step_count;
-    double picture[3], reference_picture[3]; /* the pixel as rendered without recording */
-    bool is_the_pictures;                    /* what was recorded ends in the same bits as these */
+    double picture[3];    /* the pixel as the device renders it without recording */
+    bool is_the_pictures; /* what was recorded ends in the same bits as that */
     struct event_difference difference;
 };
 
