@@ -67,6 +67,14 @@ static struct drawn draw_giant(struct random *random, struct PackedSphere *giant
     return drawn;
 }
 
+static struct drawn draw(struct random *random, struct PackedSphere *sphere, float *curvature)
+{
+    if (random->promises.giant)
+        return draw_giant(random, sphere, curvature);
+    *sphere = random_sphere(random);
+    return draw_sphere(random, sphere);
+}
+
 static struct dvec3 random_inside(struct random *random, const struct drawn *drawn)
 {
     if (!drawn->is_giant)
@@ -183,14 +191,8 @@ RayRecord ray_at_sphere(struct random *random, struct PackedSphere *sphere)
 
 void generate_meet_sphere(struct random *random, meet_sphere_input *input)
 {
-    input->sphere = random_sphere(random);
-    input->ray = ray_at_sphere(random, &input->sphere);
-}
-
-void generate_meet_giant(struct random *random, meet_giant_input *input)
-{
-    const struct drawn drawn = draw_giant(random, &input->giant, &input->curvature);
-    input->ray = ray_at(random, &drawn, &input->giant);
+    const struct drawn drawn = draw(random, &input->sphere, &input->curvature);
+    input->ray = ray_at(random, &drawn, &input->sphere);
 }
 
 static SegmentRecord segment_at(struct random *random, const struct drawn *drawn, layout_ivec4 *tags)
@@ -273,13 +275,6 @@ static SegmentRecord segment_at(struct random *random, const struct drawn *drawn
 
 void generate_sphere_shadows(struct random *random, sphere_shadows_input *input)
 {
-    input->sphere = random_sphere(random);
-    const struct drawn drawn = draw_sphere(random, &input->sphere);
+    const struct drawn drawn = draw(random, &input->sphere, &input->curvature);
     input->segment = segment_at(random, &drawn, &input->sphere.tags);
-}
-
-void generate_giant_shadows(struct random *random, giant_shadows_input *input)
-{
-    const struct drawn drawn = draw_giant(random, &input->giant, &input->curvature);
-    input->segment = segment_at(random, &drawn, &input->giant.tags);
 }
