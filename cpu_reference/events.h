@@ -72,33 +72,6 @@ static inline void record_ray(uint32_t sample, const struct ray *ray, real weigh
            ray->direction, weight);
 }
 
-/* The first of the spheres that the tree has and that stand between the ends; sphere_count if there is none.
- */
-static inline int find_blocker_in_tree(const struct packed_scene *scene, const struct segment *segment)
-{
-    int first = scene->sphere_count, own = segment->surface;
-    if (is_in_tree(scene, own) && sphere_blocks(scene, own, segment))
-        first = own;
-    struct sphere_walk walk = walk_segment(scene, segment);
-    for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
-        if (i < first && sphere_blocks(scene, i, segment))
-            first = i;
-    return first;
-}
-
-/* The first object that stands between the ends, which is there. */
-static inline int find_blocker(const struct packed_scene *scene, const struct segment *segment)
-{
-    int i = 0;
-    while (i < tried_spheres(scene) && !sphere_blocks(scene, i, segment))
-        ++i;
-    if (scene->tree && i == tried_spheres(scene))
-        i = find_blocker_in_tree(scene, segment);
-    while (i >= scene->sphere_count && !plane_blocks(&scene->planes[i - scene->sphere_count], i, segment))
-        ++i;
-    return i;
-}
-
 static inline void record_hit(const struct hit *hit)
 {
     record(EVENT_HIT, (layout_ivec4){.EVENT_SURFACE = hit->surface, .EVENT_FROM_INSIDE = hit->from_inside},

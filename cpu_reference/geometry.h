@@ -297,36 +297,42 @@ static inline bool plane_blocks(const struct PackedPlane *plane, int surface, co
     return segment->surface != surface && starts_behind != ends_behind;
 }
 
-static inline struct sphere_walk walk_segment(const struct packed_scene *scene, const struct segment *segment)
+/* As find_blocker(), of the spheres that the tree has. */
+static inline int find_blocker_in_tree(const struct packed_scene *scene, const struct segment *segment,
+                                       bool any)
 {
+    int own = segment->surface, first = NO_SURFACE;
+    if (is_in_tree(scene, own) && sphere_blocks(scene, own, segment))
+        first = own;
     struct tree_line line = tree_line(segment->from, segment->direction);
     line.has_end = true;
     line.end = to_tree_vector(segment->to);
     line.e_end = tree_rounding(segment->to);
-    return sphere_walk_begin(scene->tree, &line, (double)segment->length);
+    struct sphere_walk walk = sphere_walk_begin(scene->tree, &line, (double)segment->length);
+    for (int i; !(any && first != NO_SURFACE) && (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
+        if ((first == NO_SURFACE || i < first) && sphere_blocks(scene, i, segment))
+            first = i;
+    return first;
 }
 
-static inline bool tree_blocks(const struct packed_scene *scene, const struct segment *segment)
+/* The first surface, or any, that stands between the ends; NO_SURFACE: none does. */
+static inline int find_blocker(const struct packed_scene *scene, const struct segment *segment, bool any)
 {
-    int own = segment->surface;
-    if (is_in_tree(scene, own) && sphere_blocks(scene, own, segment))
-        return true;
-    struct sphere_walk walk = walk_segment(scene, segment);
-    for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
+    for (int i = 0; i < tried_spheres(scene); ++i)
         if (sphere_blocks(scene, i, segment))
-            return true;
-    return false;
+            return i;
+    const int in_tree = scene->tree ? find_blocker_in_tree(scene, segment, any) : NO_SURFACE;
+    if (in_tree != NO_SURFACE)
+        return in_tree;
+    for (int i = 0; i < scene->plane_count; ++i)
+        if (plane_blocks(&scene->planes[i], scene->sphere_count + i, segment))
+            return scene->sphere_count + i;
+    return NO_SURFACE;
 }
 
 static inline bool is_blocked(const struct packed_scene *scene, const struct segment *segment)
 {
-    for (int i = 0; i < tried_spheres(scene); ++i)
-        if (sphere_blocks(scene, i, segment))
-            return true;
-    for (int i = 0; i < scene->plane_count; ++i)
-        if (plane_blocks(&scene->planes[i], scene->sphere_count + i, segment))
-            return true;
-    return scene->tree && tree_blocks(scene, segment);
+    return find_blocker(scene, segment, true) != NO_SURFACE;
 }
 
 #endif

@@ -53,7 +53,7 @@ static inline real receive(const struct packed_scene *scene, const struct matte_
         .inward = hit->from_inside,
     };
     if (is_blocked(scene, &segment)) {
-        TELL(event_light.blocker = find_blocker(scene, &segment));
+        TELL(event_light.blocker = find_blocker(scene, &segment, false));
         return 0;
     }
     real factor =
