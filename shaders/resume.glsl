@@ -76,7 +76,7 @@ void exchange(bool saves, inout Work work)
 void save(Work work)
 {
     saved_words[saved_place(0)] = work.later;
-    saved_words[saved_place(1)] = uint(work.pending) << 7 | work.row << 2 | uint(work.fresh) << 1 | uint(work.busy);
+    saved_words[saved_place(1)] = uint(work.pending) << 7 | work.column << 2 | uint(work.fresh) << 1 | uint(work.busy);
     if (is_done(work))
         return;
     atomicAdd(unfinished, uint(bitCount(work.later)) + uint(work.busy));
@@ -88,12 +88,12 @@ void save(Work work)
     exchange(true, work);
 }
 
-void load(inout Work work, uint first_row)
+void load(inout Work work, uvec2 first)
 {
     uint place = saved_words[saved_place(1)];
     work.later = saved_words[saved_place(0)];
     int below = int(place >> 7);
-    work.row = place >> 2 & 31u;
+    work.column = place >> 2 & 31u;
     work.fresh = (place & 2u) != 0u;
     work.busy = (place & 1u) != 0u;
     if (is_done(work))
@@ -105,5 +105,5 @@ void load(inout Work work, uint first_row)
     }
     work.pending = below;
     load_path(below, work.path);
-    work.pixel.seed = pixel_seed(tile_origin + uvec2(gl_GlobalInvocationID.x, first_row + work.row));
+    work.pixel.seed = pixel_seed(tile_origin + place_of(first, work.column));
 }

@@ -19,7 +19,7 @@ layout(constant_id = 15) const bool PLANES_SHADOW = true;       // some plane ha
 layout(constant_id = 16) const bool MIXED_ORDER = true; // a plane stands before a sphere in the file
 layout(constant_id = 17) const bool ONE_ROUGHNESS = false; // all matte surfaces have view.matte
 layout(constant_id = 18) const uint PLANE_AXES = 0u; // two bits a plane: normal along x 1, y 2, z 3, other 0
-layout(constant_id = 19) const uint ROWS = 1u; // pixels an invocation renders, one below the other
+layout(constant_id = 19) const uint COLUMNS = 1u; // pixels an invocation renders, a group's width apart
 layout(constant_id = 20) const uint ENTERED_SPHERES = ~0u; // a bit for each sphere that rays can run inside of
 layout(constant_id = 21) const int OUTPUT = OUTPUT_RADIANCE; // what a pixel's three values are
 layout(constant_id = 22) const bool CORRECTED_DIVISION = true; // with CORRECTED: the device's own / is inexact

@@ -1,5 +1,5 @@
 // Whitted's recursion ("An Improved Illumination Model for Shaded Display", CACM 23(6), 1980), with an explicit stack that
-// holds only what is pending. An invocation renders some pixels, one below the other: first the primary rays, then, in a
+// holds only what is pending. An invocation renders some pixels of a row: first the primary rays, then, in a
 // loop that traces one ray a turn, the pixels that show a mirror or glass, one after the other.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -31,8 +31,8 @@ uint first_sample, samples_end;
 
 // What an invocation has to do, and where it is.
 struct Work {
-    uint later; // a bit for each row that is still to be begun
-    uint row;   // of the pixel that is being rendered
+    uint later; // a bit for each column that is still to be begun
+    uint column; // of the pixel that is being rendered
     bool busy;  // there is such a pixel
     bool fresh; // its next ray is a primary ray
     int pending; // rays on the stack
@@ -40,6 +40,13 @@ struct Work {
     Pixel pixel;
     Lighting light;
 };
+
+// The pixels of a group, and of its next columns, lie side by side: with an invocation's pixels one below the other every
+// store of lavapipe's missed the caches, up to half of the time.
+uvec2 place_of(uvec2 first, uint column)
+{
+    return uvec2(first.x + column * gl_WorkGroupSize.x, first.y);
+}
 
 #include "resume.glsl"
 
@@ -171,12 +178,12 @@ bool bounces(Hit hit)
     return (MIRRORS || GLASS) && hit.surface >= 0 && hit.kind != KIND_MATTE;
 }
 
-// The primary rays of the rows that lie in the tile. The pixels that show a mirror or glass are left for later.
-uint render_primary_rays(uint first_row, uint rows)
+// The primary rays of the columns that lie in the tile. The pixels that show a mirror or glass are left for later.
+uint render_primary_rays(uvec2 first, uint columns)
 {
     uint later = 0u;
-    for (uint row = 0u; row < rows; ++row) {
-        uvec2 in_tile = uvec2(gl_GlobalInvocationID.x, first_row + row);
+    for (uint column = 0u; column < columns; ++column) {
+        uvec2 in_tile = place_of(first, column);
         bool inside = all(lessThan(in_tile, tile_size)), ends = true;
         uint place = inside ? in_tile.y * tile_size.x + in_tile.x : 0u;
         Pixel pixel;
@@ -198,19 +205,19 @@ uint render_primary_rays(uint first_row, uint rows)
         }
         if (inside && ends)
             store(place, pixel);
-        later |= inside && !ends ? 1u << row : 0u;
+        later |= inside && !ends ? 1u << column : 0u;
     }
     return later;
 }
 
 // One turn of the loop: traces a ray of the tree.
-void turn(inout Work work, uint first_row)
+void turn(inout Work work, uvec2 first)
 {
     if (!work.busy) {
-        work.row = uint(findLSB(work.later));
+        work.column = uint(findLSB(work.later));
         work.later &= work.later - 1u;
     }
-    uvec2 in_tile = uvec2(gl_GlobalInvocationID.x, first_row + work.row);
+    uvec2 in_tile = place_of(first, work.column);
     uint place = in_tile.y * tile_size.x + in_tile.x;
     TELL(records_pixel = in_tile == uvec2(0);)
     if (!work.busy) {
@@ -267,10 +274,10 @@ void turn(inout Work work, uint first_row)
     }
 }
 
-uint rows_inside(uint first_row)
+uint columns_inside(uvec2 first)
 {
-    uint rows = gl_GlobalInvocationID.x < tile_size.x && first_row < tile_size.y ? min(tile_size.y - first_row, ROWS) : 0u;
-    return rows < 32u ? (1u << rows) - 1u : ~0u;
+    uint columns = all(lessThan(first, tile_size)) ? (tile_size.x - 1u - first.x) / gl_WorkGroupSize.x + 1u : 0u;
+    return columns < COLUMNS ? (1u << columns) - 1u : ~0u >> (32u - COLUMNS);
 }
 
 void main()
@@ -289,18 +296,18 @@ void main()
     // lavapipe gives each thread groups that lie together: dealt out in turn, all get their share of what is dear
     uint share = gl_NumWorkGroups.y / tile.threads;
     uint group_y = gl_WorkGroupID.y % share * tile.threads + gl_WorkGroupID.y / share;
-    uint first_row = (group_y * gl_WorkGroupSize.y + gl_LocalInvocationID.y) * ROWS;
+    uvec2 first = uvec2(gl_WorkGroupID.x * COLUMNS, group_y) * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;
     Work work = no_work();
     if (PRIMARY_RAYS_FIRST)
-        work.later = render_primary_rays(first_row, goes_on ? 0u : ROWS);
+        work.later = render_primary_rays(first, goes_on ? 0u : COLUMNS);
     else
-        work.later = rows_inside(first_row);
+        work.later = columns_inside(first);
     if (PRIMARY_RAYS_FIRST && !SECONDARY_RAYS)
         return;
     if (goes_on)
-        load(work, first_row);
+        load(work, first);
     for (uint turns = 0u; !is_done(work) && (!RESUMABLE || turns < most_turns) && (!HIERARCHY || steps > 0u); ++turns)
-        turn(work, first_row);
+        turn(work, first);
     if (RESUMABLE)
         save(work);
 }

@@ -72,13 +72,13 @@ void dispatcher_destroy(struct dispatcher *dispatcher)
 /* Groups that cover so many pixels. */
 static uint32_t groups_x(const struct dispatch_size *size, uint32_t width)
 {
-    return (width + size->group_width - 1) / size->group_width;
+    const uint32_t columns = size->group_width * size->columns;
+    return (width + columns - 1) / columns;
 }
 
 static uint32_t groups_y(const struct dispatch_size *size, uint32_t height)
 {
-    const uint32_t rows = size->group_height * size->rows;
-    return (height + rows - 1) / rows;
+    return (height + size->group_height - 1) / size->group_height;
 }
 
 /* The threads among which rows of groups are dealt out: so many that an equal number each has few in excess.

@@ -56,7 +56,7 @@ static bool primary_rays_pay(const struct vulkan_context *context, const struct 
 static void choose_steps(const struct vulkan_context *context, struct dispatch_size *size)
 {
     size->most_steps = size->on_processor ? MOST_TURNS / context->subgroup_size : MOST_TURNS;
-    size->rows = size->on_processor ? 4 : 1;
+    size->columns = size->on_processor ? 4 : 1;
 }
 
 /* Loops may be unrolled or not: all their turns are counted. A scene file has 18,000 planes at most, so that
@@ -77,13 +77,14 @@ static void choose_turns(const struct packed_scene *scene, bool primary_first, s
     size->primary_rays_first = primary_first && ray + points * point <= MOST_TURNS;
     size->light_points_a_turn = (uint32_t)points_a_turn;
     size->most_turns = (uint32_t)at_least_1(MOST_TURNS / turn);
-    size->rows = (uint32_t)at_least_1(smaller(size->rows, MOST_TURNS / turn));
-    size->samples = (uint32_t)smaller((uint64_t)scene->samples, at_least_1(MOST_TURNS / (size->rows * turn)));
+    size->columns = (uint32_t)at_least_1(smaller(size->columns, MOST_TURNS / turn));
+    size->samples =
+        (uint32_t)smaller((uint64_t)scene->samples, at_least_1(MOST_TURNS / (size->columns * turn)));
     const uint64_t turns = most_rays(scene) * (points / points_a_turn + 1) * size->samples;
-    while (size->rows > 4 && turns * size->rows > size->most_turns &&
-           turns * size->rows / 4 <= size->most_turns)
-        size->rows /= 2; /* which costs less than to go on in the next dispatch */
-    size->resumable = scene->hierarchy || turns * size->rows > size->most_turns;
+    while (size->columns > 4 && turns * size->columns > size->most_turns &&
+           turns * size->columns / 4 <= size->most_turns)
+        size->columns /= 2; /* which costs less than to go on in the next dispatch */
+    size->resumable = scene->hierarchy || turns * size->columns > size->most_turns;
 }
 
 /* The slots in which an invocation keeps its work and its stack. */
@@ -101,18 +102,17 @@ static void choose_memory(const struct packed_scene *scene, struct dispatch_size
 static void choose_tile(const struct vulkan_context *context, const struct packed_scene *scene,
                         size_t value_size, struct dispatch_size *size)
 {
-    enum { LEAST_PIXELS = 1024, MOST_PIXELS = 1 << 21 };
+    enum { LEAST_PIXELS = 1024, MOST_PIXELS = 1 << 21, MOST_INVOCATIONS = 1 << 26 };
     const VkPhysicalDeviceLimits *limits = &context->properties.limits;
     uint64_t work_per_pixel =
         size->samples * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
     uint64_t pixels = (UINT64_C(1) << (size->on_processor ? 22 : 26)) / work_per_pixel;
     pixels = pixels < LEAST_PIXELS ? LEAST_PIXELS : smaller(pixels, MOST_PIXELS);
     pixels = smaller(pixels, limits->maxStorageBufferRange / (4 * value_size));
-    if (size->saved_reals > 0) { /* half of it for invocations that stick out of the tile */
-        const uint64_t saved_bytes = size->saved_reals * SAVED_REAL_BYTES * (value_size / sizeof(float));
-        pixels = smaller(pixels, limits->maxStorageBufferRange / 2 / saved_bytes * size->rows);
-    }
     size->tile_pixels = (unsigned)at_least_1(pixels);
+    const uint64_t saved_bytes = size->saved_reals * SAVED_REAL_BYTES * (value_size / sizeof(float));
+    const uint64_t invocations = limits->maxStorageBufferRange / at_least_1(saved_bytes);
+    size->tile_invocations = (unsigned)smaller(invocations, MOST_INVOCATIONS);
 }
 
 struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
@@ -123,13 +123,13 @@ struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
         .on_processor = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU,
         .group_width = 8,
         .group_height = 8,
-        .rows = 1,
+        .columns = 1,
         .threads = 1,
     };
     if (size.on_processor) {
         size.group_width = context->subgroup_size >= 16 ? 16 : 8;
         size.group_height = 1;
-        size.rows = 16;
+        size.columns = 16;
         size.threads = (uint32_t)sysconf(_SC_NPROCESSORS_ONLN);
     }
     if (scene->hierarchy)

@@ -8,7 +8,7 @@
 struct dispatch_size {
     bool on_processor;                  /* whose threads run invocations in the lanes of vectors */
     uint32_t group_width, group_height; /* invocations in a work group */
-    uint32_t rows;                      /* pixels that an invocation renders, one below the other */
+    uint32_t columns;                   /* pixels that an invocation renders, a group's width apart */
     uint32_t threads;                   /* that share a dispatch */
     uint32_t samples;                   /* at most, of each pixel */
     uint32_t light_points_a_turn;       /* of the loop over rays */
@@ -18,6 +18,7 @@ struct dispatch_size {
     bool resumable;                     /* an invocation may take more turns than that */
     uint32_t saved_reals, saved_words;  /* slots that an invocation has in memory, see path.glsl */
     unsigned tile_pixels;               /* at most, in a tile */
+    unsigned tile_invocations;          /* at most, for whose slots there is room */
 };
 
 enum { SAVED_REAL_BYTES = 4 * sizeof(float) }; /* twice as many in double precision */

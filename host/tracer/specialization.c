@@ -40,7 +40,7 @@ struct specialization specialize(const struct vulkan_context *context, const str
         .samples = scene->samples,
         .light_samples = scene->light_samples,
         .one_roughness = VK_TRUE,
-        .rows = size->rows,
+        .columns = size->columns,
         .output = options->output,
         .corrected_division = !context->arithmetic.division_exact,
         .corrected_root = !context->arithmetic.root_exact,

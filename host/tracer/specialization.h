@@ -10,7 +10,7 @@ struct specialization {
     int32_t spheres, planes, point_lights, quad_lights, max_bounces, samples, light_samples;
     VkBool32 mirrors, glass, glass_planes, rough, spheres_hold_rays, spheres_hold_lights, planes_shadow,
         mixed_order, one_roughness;
-    uint32_t plane_axes, rows, entered_spheres;
+    uint32_t plane_axes, columns, entered_spheres;
     int32_t output;                              /* OUTPUT_ */
     VkBool32 corrected_division, corrected_root; /* see probe.h */
     VkBool32 prunes, charges, resumable, rays_escape, processor, samples_apart;
