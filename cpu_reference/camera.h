@@ -11,11 +11,13 @@ static inline uint32_t pixel_seed(int x, int y)
     return hash32(hash32((uint32_t)x) + (uint32_t)y);
 }
 
-/* The ray through the point (x + sample_x, y + sample_y) of the picture, in pixels from the top left. */
-static inline struct ray primary_ray(const struct packed_scene *scene, int x, int y, real sample_x,
-                                     real sample_y)
+/* The ray of sample number k of the pixel: a single one goes through the middle. */
+static inline struct ray camera_ray(const struct packed_scene *scene, int x, int y, uint32_t k)
 {
     const struct PackedView *view = &scene->view;
+    real sample_x = (real)0.5, sample_y = (real)0.5;
+    if (scene->samples > 1)
+        sobol_point(pixel_seed(x, y), k, &sample_x, &sample_y);
     real right = (real)(2 * x - scene->width) + 2 * sample_x;
     real down = (real)(2 * y - scene->height) + 2 * sample_y;
     struct vec3 through = add(add(vector_of(view->forward), scale(right, vector_of(view->half_pixel_right))),
@@ -25,15 +27,6 @@ static inline struct ray primary_ray(const struct packed_scene *scene, int x, in
         .direction = normalize(through),
         .surface = NO_SURFACE,
     };
-}
-
-/* The ray of sample number k of the pixel: a single one goes through the middle. */
-static inline struct ray camera_ray(const struct packed_scene *scene, int x, int y, uint32_t k)
-{
-    real sample_x = (real)0.5, sample_y = (real)0.5;
-    if (scene->samples > 1)
-        sobol_point(pixel_seed(x, y), k, &sample_x, &sample_y);
-    return primary_ray(scene, x, y, sample_x, sample_y);
 }
 
 #endif

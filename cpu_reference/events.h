@@ -1,14 +1,20 @@
-/* How the tracer tells what it does, step by step: only where it is built with REFERENCE_RECORD, the entry's
- * name, for one pixel and one thread at a time. Elsewhere the calls are empty. */
+/* How the tracer tells what it does, step by step, where the caller wants to know. */
 #ifndef REFERENCE_EVENTS_H
 #define REFERENCE_EVENTS_H
 
-#ifdef REFERENCE_RECORD
-
+#include "dielectric.h"
 #include "geometry.h"
-#include "reference_events.h"
+#include "reference.h"
 
-static _Thread_local struct reference_log *event_log;
+static _Thread_local struct reference_log *event_log; /* NULL: nobody wants to know */
+
+/* Tells it to the log, if there is one. */
+#define TELL(statement)                                                                                      \
+    do {                                                                                                     \
+        if (event_log)                                                                                       \
+            statement;                                                                                       \
+    } while (0)
+
 static _Thread_local struct reference_event *last_event; /* or a place for what is not kept */
 static _Thread_local layout_ivec4 event_place;
 
@@ -66,91 +72,54 @@ static inline void record_ray(uint32_t sample, const struct ray *ray, real weigh
            ray->direction, weight);
 }
 
-/* The first of the spheres that the tree has and that stand between the ends; sphere_count if there is none.
- */
-static inline int find_blocker_in_tree(const struct packed_scene *scene, const struct segment *segment)
+static inline void record_hit(const struct hit *hit)
 {
-    int first = scene->sphere_count, own = segment->surface;
-    if (is_in_tree(scene, own) && sphere_blocks(&scene->spheres[own], own, segment))
-        first = own;
-    struct sphere_walk walk = walk_segment(scene, segment);
-    for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
-        if (i < first && sphere_blocks(&scene->spheres[i], i, segment))
-            first = i;
-    return first;
+    record(EVENT_HIT, (layout_ivec4){.EVENT_SURFACE = hit->surface, .EVENT_FROM_INSIDE = hit->from_inside},
+           hit->normal, hit->point, hit->surface < 0 ? 0 : hit->distance);
 }
 
-/* The first object that stands between the ends, which is there. */
-static inline int find_blocker(const struct packed_scene *scene, const struct segment *segment)
+static inline void record_split(real cos_in, struct refraction refraction)
 {
-    int i = 0;
-    while (i < tried_spheres(scene) && !tried_sphere_blocks(scene, i, segment))
-        ++i;
-    if (scene->tree && i == tried_spheres(scene))
-        i = find_blocker_in_tree(scene, segment);
-    while (i >= scene->sphere_count && !plane_blocks(&scene->planes[i - scene->sphere_count], i, segment))
-        ++i;
-    return i;
+    record(EVENT_SPLIT, (layout_ivec4){.EVENT_TOTAL = refraction.total}, refraction.direction,
+           (struct vec3){cos_in, refraction.reflectance, 0}, 0);
 }
 
-#define RECORD(kind, facts, first, second, third) record(kind, facts, first, second, third)
-#define RECORD_BOUNDS(known, first, second, third, margin) record_bounds(known, first, second, third, margin)
-#define RECORD_RAY(sample, path)                                                                             \
-    record_ray(sample, &(path)->ray, (real)(path)->weight, (path)->bounces, (path)->branch)
-#define RECORD_HIT(hit)                                                                                      \
-    record(EVENT_HIT,                                                                                        \
-           (layout_ivec4){.EVENT_SURFACE = (hit)->surface, .EVENT_FROM_INSIDE = (hit)->from_inside},         \
-           (hit)->normal, (hit)->point, (hit)->surface < 0 ? 0 : (hit)->distance)
-#define RECORD_SPLIT(cos_in, refraction)                                                                     \
-    record(EVENT_SPLIT, (layout_ivec4){.EVENT_TOTAL = (refraction).total}, (refraction).direction,           \
-           (struct vec3){cos_in, (refraction).reflectance, 0}, 0)
-#define RECORD_UNTRACED(when, why, weight, weight_bound, charge)                                             \
-    if (when)                                                                                                \
-    record(EVENT_UNTRACED, (layout_ivec4){.EVENT_REASON = why}, (struct vec3){(real)(weight), charge, 0},    \
-           (struct vec3){0, 0, 0}, 0),                                                                       \
-        record_bounds(true, each(weight_bound), each(0), 0, INFINITY)
-#define RECORD_LEAF(seen, leaf) record(EVENT_LEAF, (layout_ivec4){0, 0, 0, 0}, seen, leaf, 0)
+static inline void record_untraced(int why, real weight, double weight_bound, real charge)
+{
+    record(EVENT_UNTRACED, (layout_ivec4){.EVENT_REASON = why}, (struct vec3){weight, charge, 0}, each(0), 0);
+    record_bounds(true, each(weight_bound), each(0), 0, INFINITY);
+}
 
-#define NOTE_LIGHT_TOO_NEAR()                                                                                \
-    event_light.state = LIGHT_TOO_NEAR, event_light.blocker = NO_SURFACE, event_light.values = each(0),      \
-    event_light.known = false, event_light.margin = INFINITY
-#define NOTE_LIGHT_BEHIND(distance, cos_in)                                                                  \
-    event_light.state = LIGHT_BEHIND, event_light.values = (struct vec3)                                     \
-    {                                                                                                        \
-        distance, cos_in, 0                                                                                  \
-    }
-#define NOTE_SHADOW_RAY() event_light.state = LIGHT_SHADOW_RAY
-#define NOTE_BLOCKED(scene, segment) event_light.blocker = find_blocker(scene, segment)
-#define NOTE_RECEIVED(received) event_light.values.z = received
-#define NOTE_LIGHT_BOUNDS(point, distance, cos_in, received, of_margin)                                      \
-    event_light.bounds = (struct vec3){(real)(distance), (real)(cos_in), (real)(received)},                  \
-    event_light.point_bounds = errors_vector(point), event_light.known = true,                               \
-    event_light.margin = of_margin
-#define NOTE_AREA_BOUND(area) event_light.area_bound = area
-#define RECORD_LIGHT(light, sample, point, area)                                                             \
-    record(EVENT_LIGHT, (layout_ivec4){light, sample, event_light.state, event_light.blocker}, point,        \
-           event_light.values, area),                                                                        \
-        record_bounds(event_light.known, event_light.point_bounds, event_light.bounds,                       \
-                      event_light.area_bound, event_light.margin)
+static inline void record_leaf(struct vec3 seen, struct vec3 leaf)
+{
+    record(EVENT_LEAF, (layout_ivec4){0}, seen, leaf, 0);
+}
 
-#else
+/* How far the light point has got: LIGHT_. */
+static inline void note_light(int state, real distance, real cos_in)
+{
+    event_light.state = state;
+    event_light.blocker = NO_SURFACE;
+    event_light.values = (struct vec3){distance, cos_in, 0};
+    event_light.known = false;
+    event_light.margin = INFINITY;
+}
 
-#define RECORD(kind, facts, first, second, third)
-#define RECORD_BOUNDS(known, first, second, third, margin)
-#define RECORD_RAY(sample, path)
-#define RECORD_HIT(hit)
-#define RECORD_SPLIT(cos_in, refraction)
-#define RECORD_UNTRACED(when, why, weight, weight_bound, charge)
-#define RECORD_LEAF(seen, leaf)
-#define NOTE_LIGHT_TOO_NEAR()
-#define NOTE_LIGHT_BEHIND(distance, cos_in)
-#define NOTE_SHADOW_RAY()
-#define NOTE_BLOCKED(scene, segment)
-#define NOTE_RECEIVED(received)
-#define NOTE_LIGHT_BOUNDS(point, distance, cos_in, received, of_margin)
-#define NOTE_AREA_BOUND(area)
-#define RECORD_LIGHT(light, sample, point, area)
+static inline void note_light_bounds(struct vec3 point, double distance, double cos_in, double received,
+                                     double margin)
+{
+    event_light.bounds = (struct vec3){(real)distance, (real)cos_in, (real)received};
+    event_light.point_bounds = point;
+    event_light.known = true;
+    event_light.margin = margin;
+}
 
-#endif
+static inline void record_light(int light, int sample, struct vec3 point, real area)
+{
+    record(EVENT_LIGHT, (layout_ivec4){light, sample, event_light.state, event_light.blocker}, point,
+           event_light.values, area);
+    record_bounds(event_light.known, event_light.point_bounds, event_light.bounds, event_light.area_bound,
+                  event_light.margin);
+}
 
 #endif

@@ -1,7 +1,6 @@
 /* The reference at high precision, with a running error analysis of what the float tracer does: for each
  * pixel the radiance, the path signature, how far the nearest decision is from going the other way in float,
- * and a bound on float's error. Built at double and binary128 with the entry's name REFERENCE_EXPLAIN, or
- * REFERENCE_RECORD for the one that tells what it does. */
+ * and a bound on float's error. Built at double and binary128 with the entry's name REFERENCE_EXPLAIN. */
 #include "camera.h"
 #include "events.h"
 #include "light_margin.h"
@@ -30,11 +29,6 @@ struct tracked_path {
 /* An angle of which first-order errors tell little. */
 static const double unknown_angle = 0.25;
 
-static struct vec3 all_channels(double x)
-{
-    return (struct vec3){(real)x, (real)x, (real)x};
-}
-
 static struct vec3 at_most(struct vec3 a, struct vec3 b)
 {
     return (struct vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
@@ -43,7 +37,7 @@ static struct vec3 at_most(struct vec3 a, struct vec3 b)
 /* What rays of that weight may bring, exactly or in float, and so the most that they can differ by. */
 static struct vec3 most_radiance(const struct pixel *pixel, double weight)
 {
-    return all_channels(weight * (double)pixel->scene->view.truncation.RADIANCE_BOUND);
+    return each(weight * (double)pixel->scene->view.truncation.RADIANCE_BOUND);
 }
 
 static void widen(struct pixel *pixel, struct vec3 error, enum reference_cause cause)
@@ -87,8 +81,8 @@ static void gather(struct pixel *pixel, const struct tracked_path *path, struct 
     struct vec3 relative = scale((real)(path->e_weight + rounding(path->weight)), radiance);
     struct vec3 rounded = at_most(add(scale((real)path->weight, rounding_error), relative), most);
     struct vec3 shadow = at_most(scale((real)(path->weight + path->e_weight), shadow_error), most);
-    RECORD_LEAF(radiance, scale((real)path->weight, radiance));
-    RECORD_BOUNDS(path->followed, add(rounding_error, shadow_error), add(rounded, shadow), 0, INFINITY);
+    TELL(record_leaf(radiance, scale((real)path->weight, radiance)));
+    TELL(record_bounds(path->followed, add(rounding_error, shadow_error), add(rounded, shadow), 0, INFINITY));
     pixel->radiance = add(pixel->radiance, scale((real)path->weight, radiance));
     if (path->followed) {
         widen(pixel, rounded, CAUSE_ROUNDING);
@@ -135,9 +129,9 @@ static void trace_dielectric(struct pixel *pixel, const struct tracked_path *pat
                          refraction.direction, (double)eta, (double)kappa);
     double margin = path->followed ? margin_of(error.cos_out_squared, error.of_cos_out_squared) : INFINITY;
     note(&pixel->tally, refraction.total);
-    RECORD_SPLIT(cos_in, refraction);
-    RECORD_BOUNDS(path->followed, errors_vector(error.refracted),
-                  ((struct vec3){(real)error.cos_in, (real)error.reflectance, 0}), 0, margin);
+    TELL(record_split(cos_in, refraction));
+    TELL(record_bounds(path->followed, errors_vector(error.refracted),
+                       (struct vec3){(real)error.cos_in, (real)error.reflectance, 0}, 0, margin));
     double reflectance = refraction.total ? 1 : (double)refraction.reflectance;
     double e_split = path->weight * error.reflectance;
     struct tracked_path refracted = reflected;
@@ -161,10 +155,10 @@ static void trace_dielectric(struct pixel *pixel, const struct tracked_path *pat
         trace_secondary(pixel, reflected);
         return;
     }
-    RECORD_UNTRACED(!(reflected.weight > SMALLEST_WEIGHT), UNTRACED_REFLECTED, reflected.weight,
-                    reflected.e_weight, 0);
-    RECORD_UNTRACED(!(refracted.weight > SMALLEST_WEIGHT), UNTRACED_REFRACTED, refracted.weight,
-                    refracted.e_weight, 0);
+    if (!(reflected.weight > SMALLEST_WEIGHT))
+        TELL(record_untraced(UNTRACED_REFLECTED, (real)reflected.weight, reflected.e_weight, 0));
+    if (!(refracted.weight > SMALLEST_WEIGHT))
+        TELL(record_untraced(UNTRACED_REFRACTED, (real)refracted.weight, refracted.e_weight, 0));
     trace_secondary(pixel, refracted);
     trace_secondary(pixel, reflected);
 }
@@ -179,7 +173,7 @@ static void scatter(struct pixel *pixel, const struct tracked_path *path, const 
         return;
     }
     if (path->bounces == pixel->scene->max_bounces) {
-        RECORD_UNTRACED(true, UNTRACED_BOUNCES, path->weight, path->e_weight, 0);
+        TELL(record_untraced(UNTRACED_BOUNCES, (real)path->weight, path->e_weight, 0));
         return;
     }
     struct tracked_path reflected = *path;
@@ -210,8 +204,8 @@ static bool meet(struct pixel *pixel, struct tracked_path *path, struct hit *hit
     if (error.direction > unknown_angle)
         decide(pixel, path, 0, CAUSE_ROUNDING);
     double margin = path->followed ? hit_margin(scene, &path->ray, error, hit) : INFINITY;
-    RECORD_HIT(hit);
-    RECORD_BOUNDS(path->followed && !met, all_channels(0), all_channels(0), 0, margin);
+    TELL(record_hit(hit));
+    TELL(record_bounds(path->followed && !met, each(0), each(0), 0, margin));
     decide(pixel, path, margin, CAUSE_HIT);
     return met;
 }
@@ -224,16 +218,16 @@ static void trace(struct pixel *pixel, struct tracked_path path)
     const bool followed = path.followed;
     struct hit hit;
     struct hit_error hit_error = {.distance = 0};
-    RECORD_RAY(pixel->sample, &path);
-    RECORD_BOUNDS(followed, errors_vector(path.error.origin), errors_vector(path.error.direction),
-                  path.e_weight, INFINITY);
+    TELL(record_ray(pixel->sample, &path.ray, (real)path.weight, path.bounces, path.branch));
+    TELL(record_bounds(followed, errors_vector(path.error.origin), errors_vector(path.error.direction),
+                       path.e_weight, INFINITY));
     if (!meet(pixel, &path, &hit)) {
         gather(pixel, &path, vector_of(pixel->scene->view.background), none, none);
     } else {
         if (path.followed) {
             hit_error = track_hit(pixel->scene, &path.ray, &path.error, &hit);
-            RECORD_BOUNDS(true, errors_vector(hit_error.normal), errors_vector(hit_error.point),
-                          hit_error.distance, last_event->margin);
+            TELL(record_bounds(true, errors_vector(hit_error.normal), errors_vector(hit_error.point),
+                               hit_error.distance, last_event->margin));
             if (errors_length(hit_error.normal) > unknown_angle)
                 decide(pixel, &path, 0, CAUSE_ROUNDING);
         }
@@ -243,13 +237,14 @@ static void trace(struct pixel *pixel, struct tracked_path path)
         pixel->error = at_most(pixel->error, most);
 }
 
-static struct pixel explain_pixel(const struct packed_scene *scene, int x, int y)
-{
+struct reference_explanation REFERENCE_EXPLAIN(const struct packed_scene *scene, int x, int y,
+                                               struct reference_log *log) {
     struct pixel pixel = {
         .scene = scene,
         .seed = pixel_seed(x, y),
         .margin = INFINITY,
     };
+    event_log = log;
     for (uint32_t k = 0; k < (uint32_t)scene->samples; ++k) {
         pixel.sample = k;
         struct tracked_path path = {
@@ -260,43 +255,18 @@ static struct pixel explain_pixel(const struct packed_scene *scene, int x, int y
         path.error = track_primary(scene, path.ray.direction);
         trace(&pixel, path);
     }
-    real count = (real)scene->samples;
-    struct vec3 sum_error = scale(count > 1 ? count * (real)unit_roundoff : 0, pixel.radiance);
-    pixel.error = add(scale(1 / count, add(pixel.error, sum_error)), all_channels(SMALLEST_WEIGHT));
-    pixel.radiance =
-        (struct vec3){pixel.radiance.x / count, pixel.radiance.y / count, pixel.radiance.z / count};
-    return pixel;
+    const real count = (real)scene->samples;
+    const struct vec3 sum = pixel.radiance;
+    const struct vec3 sum_error = scale(count > 1 ? count * (real)unit_roundoff : 0, sum);
+    const struct vec3 error = add(scale(1 / count, add(pixel.error, sum_error)), each(SMALLEST_WEIGHT));
+    const struct vec3 radiance = {sum.x / count, sum.y / count, sum.z / count};
+    TELL(record(EVENT_PIXEL, (layout_ivec4){0}, radiance, each(0), 0));
+    TELL(record_bounds(true, error, each(0), 0, pixel.margin));
+    return (struct reference_explanation){
+        .rgb = {(double)radiance.x, (double)radiance.y, (double)radiance.z},
+        .bound = {(double)error.x, (double)error.y, (double)error.z},
+        .margin = pixel.margin,
+        .signature = pixel.tally.signature,
+        .cause = pixel.cause,
+    };
 }
-
-#ifdef REFERENCE_RECORD
-
-void REFERENCE_RECORD(const struct packed_scene *scene, int x, int y, struct reference_log *log)
-{
-    event_log = log;
-    struct pixel pixel = explain_pixel(scene, x, y);
-    RECORD(EVENT_PIXEL, (layout_ivec4){0}, pixel.radiance, all_channels(0), 0);
-    RECORD_BOUNDS(true, pixel.error, all_channels(0), 0, pixel.margin);
-}
-
-#else
-
-void REFERENCE_EXPLAIN(const struct packed_scene *scene, struct reference_window window, int threads,
-                       struct reference_explanation *explanations)
-{
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (int row = 0; row < window.height; ++row) {
-        for (int column = 0; column < window.width; ++column) {
-            struct pixel pixel = explain_pixel(scene, window.x + column, window.y + row);
-            explanations[(size_t)row * (size_t)window.width + (size_t)column] =
-                (struct reference_explanation){
-                    .rgb = {(double)pixel.radiance.x, (double)pixel.radiance.y, (double)pixel.radiance.z},
-                    .bound = {(double)pixel.error.x, (double)pixel.error.y, (double)pixel.error.z},
-                    .margin = pixel.margin,
-                    .signature = pixel.tally.signature,
-                    .cause = pixel.cause,
-                };
-        }
-    }
-}
-
-#endif

@@ -82,52 +82,69 @@ static inline struct approach approach_sphere(struct vec3 to_center, struct vec3
     return approach;
 }
 
-static inline bool lies_inside(struct vec3 to_center, real radius)
+/* Whether the point lies inside sphere i. */
+static inline bool lies_inside(const struct packed_scene *scene, int i, struct vec3 point)
 {
+    if (is_giant(scene, i)) {
+        struct giant giant = giant_of(scene, i);
+        return giant_height(&giant, point) < 0;
+    }
+    layout_vec4 sphere = scene->spheres[i].center_radius;
+    struct vec3 to_center = subtract(vector_of(sphere), point);
+    real radius = sphere.w;
     return dot(to_center, to_center) < radius * radius;
 }
 
-/* Whether the ray meets the sphere with this number; the distance to where it does, and from which side. */
-static inline bool meet_sphere(const struct PackedSphere *sphere, int surface, const struct ray *ray,
-                               real *distance, bool *from_inside)
+/* Distances along a line to a sphere's surface. */
+struct passage {
+    real near_end, far_end;
+    real chord;  /* from a point of the surface on the line, inward, to the other */
+    bool is_met; /* ahead, from outside */
+};
+
+static inline struct passage pass_sphere(layout_vec4 sphere, const struct ray *ray)
 {
-    real radius = sphere->center_radius.w;
-    struct vec3 to_center = subtract(vector_of(sphere->center_radius), ray->origin);
-    struct approach approach = approach_sphere(to_center, ray->direction, radius);
+    struct approach approach =
+        approach_sphere(subtract(vector_of(sphere), ray->origin), ray->direction, sphere.w);
     real half_chord = square_root(at_least_zero(approach.half_chord_squared));
-    *from_inside = true;
-    if (ray->surface == surface) { /* inward, the way is a whole chord; outward, there is no way back */
-        *distance = 2 * at_least_zero(approach.along);
-        return ray->inward;
-    }
-    if (sphere->tags.HOLDS_RAYS != 0 && lies_inside(to_center, radius)) {
-        *distance = at_least_zero(approach.along + half_chord);
-        return true;
-    }
-    *from_inside = false;
-    *distance = approach.along - half_chord;
-    return approach.along > 0 && approach.half_chord_squared > 0;
+    return (struct passage){
+        .near_end = approach.along - half_chord,
+        .far_end = at_least_zero(approach.along + half_chord),
+        .chord = 2 * at_least_zero(approach.along),
+        .is_met = approach.along > 0 && approach.half_chord_squared > 0,
+    };
 }
 
-/* As meet_sphere(). */
-static inline bool meet_giant(const struct giant *giant, bool holds_rays, int surface, const struct ray *ray,
-                              real *distance, bool *from_inside)
+static inline struct passage pass_giant(const struct giant *giant, bool holds_rays, const struct ray *ray)
 {
     struct giant_line line = giant_line(giant, ray->origin, ray->direction, holds_rays);
-    real root = giant_root(&line);
-    *from_inside = true;
-    if (ray->surface == surface) {
-        *distance = 2 * at_least_zero(-line.slope) / giant->curvature;
+    real root = giant_root(&line), doubled = 2 * line.height;
+    return (struct passage){
+        .near_end = doubled / (root - line.slope),
+        /* of the two ways to write the second root, the one that does not cancel */
+        .far_end = line.slope > 0 ? -doubled / (line.slope + root) : (root - line.slope) / giant->curvature,
+        .chord = 2 * at_least_zero(-line.slope) / giant->curvature,
+        .is_met = line.slope < 0 && giant_is_crossed(&line),
+    };
+}
+
+/* Whether the ray meets sphere i; the distance to where it does, and from which side. */
+static inline bool meet_sphere(const struct packed_scene *scene, int i, const struct ray *ray, real *distance,
+                               bool *from_inside)
+{
+    const bool own = ray->surface == i, holds_rays = scene->spheres[i].tags.HOLDS_RAYS != 0;
+    struct passage passage;
+    if (is_giant(scene, i)) {
+        struct giant giant = giant_of(scene, i);
+        passage = pass_giant(&giant, holds_rays, ray);
+    } else {
+        passage = pass_sphere(scene->spheres[i].center_radius, ray);
+    }
+    *from_inside = own || (holds_rays && lies_inside(scene, i, ray->origin));
+    *distance = own ? passage.chord : *from_inside ? passage.far_end : passage.near_end;
+    if (own) /* inward, the way is a whole chord; outward, there is no way back */
         return ray->inward;
-    }
-    if (line.height < 0) { /* of the two ways to write the second root, the one that does not cancel */
-        *distance = line.slope > 0 ? -(2 * line.height) / (line.slope + root)
-                                   : (root - line.slope) / giant->curvature;
-        return true;
-    }
-    *from_inside = false;
-    *distance = 2 * line.height / (root - line.slope);
-    return line.slope < 0 && giant_is_crossed(&line);
+    return *from_inside || passage.is_met;
 }
 
 static inline bool meet_plane(const struct PackedPlane *plane, int surface, const struct ray *ray,
@@ -193,18 +210,11 @@ static inline void take_if_nearer(struct hit *nearest, real distance, int surfac
 static inline void try_sphere(const struct packed_scene *scene, int i, const struct ray *ray,
                               struct hit *nearest)
 {
-    const struct PackedSphere *sphere = &scene->spheres[i];
+    const layout_ivec4 tags = scene->spheres[i].tags;
     real distance;
-    bool from_inside, met;
-    if (is_giant(scene, i)) {
-        struct giant giant = giant_of(scene, i);
-        met = meet_giant(&giant, sphere->tags.HOLDS_RAYS != 0, i, ray, &distance, &from_inside);
-    } else {
-        met = meet_sphere(sphere, i, ray, &distance, &from_inside);
-    }
-    if (met)
-        take_if_nearer(nearest, distance, i, from_inside, &scene->surfaces[sphere->tags.SURFACE],
-                       sphere->tags.FILE_ORDER);
+    bool from_inside;
+    if (meet_sphere(scene, i, ray, &distance, &from_inside))
+        take_if_nearer(nearest, distance, i, from_inside, &scene->surfaces[tags.SURFACE], tags.FILE_ORDER);
 }
 
 /* Tries those that the tree does not rule out. */
@@ -251,45 +261,26 @@ struct segment {
     bool inward; /* on the inner side of that sphere */
 };
 
-static inline bool sphere_blocks(const struct PackedSphere *sphere, int surface,
-                                 const struct segment *segment)
+/* Whether sphere i stands between the ends. */
+static inline bool sphere_blocks(const struct packed_scene *scene, int i, const struct segment *segment)
 {
-    bool own = segment->surface == surface;
+    const layout_ivec4 tags = scene->spheres[i].tags;
+    const bool own = segment->surface == i;
     if (own && !segment->inward)
         return false;
-    struct vec3 center = vector_of(sphere->center_radius);
-    real radius = sphere->center_radius.w;
-    struct vec3 to_center = subtract(center, segment->from);
-    bool starts_inside = own || (sphere->tags.HOLDS_RAYS != 0 && lies_inside(to_center, radius));
-    bool ends_inside = sphere->tags.HOLDS_LIGHTS != 0 && lies_inside(subtract(center, segment->to), radius);
+    bool starts_inside = own || (tags.HOLDS_RAYS != 0 && lies_inside(scene, i, segment->from));
+    bool ends_inside = tags.HOLDS_LIGHTS != 0 && lies_inside(scene, i, segment->to);
     if (starts_inside || ends_inside)
         return starts_inside != ends_inside;
-    struct approach approach = approach_sphere(to_center, segment->direction, radius);
+    if (is_giant(scene, i)) {
+        struct giant giant = giant_of(scene, i);
+        struct giant_line line = giant_line(&giant, segment->from, segment->direction, tags.HOLDS_RAYS != 0);
+        return line.slope < 0 && giant_is_crossed(&line) && -line.slope < giant.curvature * segment->length;
+    }
+    layout_vec4 sphere = scene->spheres[i].center_radius;
+    struct approach approach =
+        approach_sphere(subtract(vector_of(sphere), segment->from), segment->direction, sphere.w);
     return approach.along > 0 && approach.half_chord_squared > 0 && approach.along < segment->length;
-}
-
-/* As sphere_blocks(). */
-static inline bool giant_blocks(const struct giant *giant, layout_ivec4 tags, int surface,
-                                const struct segment *segment)
-{
-    bool own = segment->surface == surface;
-    if (own && !segment->inward)
-        return false;
-    struct giant_line line = giant_line(giant, segment->from, segment->direction, tags.HOLDS_RAYS != 0);
-    bool starts_inside = own || line.height < 0;
-    bool ends_inside = tags.HOLDS_LIGHTS != 0 && giant_height(giant, segment->to) < 0;
-    if (starts_inside || ends_inside)
-        return starts_inside != ends_inside;
-    return line.slope < 0 && giant_is_crossed(&line) && -line.slope < giant->curvature * segment->length;
-}
-
-/* Sphere i, which may be a giant. */
-static inline bool tried_sphere_blocks(const struct packed_scene *scene, int i, const struct segment *segment)
-{
-    if (!is_giant(scene, i))
-        return sphere_blocks(&scene->spheres[i], i, segment);
-    struct giant giant = giant_of(scene, i);
-    return giant_blocks(&giant, scene->spheres[i].tags, i, segment);
 }
 
 /* A segment crosses a plane exactly when its ends lie on different sides; `from` is known to lie in front
@@ -306,36 +297,42 @@ static inline bool plane_blocks(const struct PackedPlane *plane, int surface, co
     return segment->surface != surface && starts_behind != ends_behind;
 }
 
-static inline struct sphere_walk walk_segment(const struct packed_scene *scene, const struct segment *segment)
+/* As find_blocker(), of the spheres that the tree has. */
+static inline int find_blocker_in_tree(const struct packed_scene *scene, const struct segment *segment,
+                                       bool any)
 {
+    int own = segment->surface, first = NO_SURFACE;
+    if (is_in_tree(scene, own) && sphere_blocks(scene, own, segment))
+        first = own;
     struct tree_line line = tree_line(segment->from, segment->direction);
     line.has_end = true;
     line.end = to_tree_vector(segment->to);
     line.e_end = tree_rounding(segment->to);
-    return sphere_walk_begin(scene->tree, &line, (double)segment->length);
+    struct sphere_walk walk = sphere_walk_begin(scene->tree, &line, (double)segment->length);
+    for (int i; !(any && first != NO_SURFACE) && (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
+        if ((first == NO_SURFACE || i < first) && sphere_blocks(scene, i, segment))
+            first = i;
+    return first;
 }
 
-static inline bool tree_blocks(const struct packed_scene *scene, const struct segment *segment)
+/* The first surface, or any, that stands between the ends; NO_SURFACE: none does. */
+static inline int find_blocker(const struct packed_scene *scene, const struct segment *segment, bool any)
 {
-    int own = segment->surface;
-    if (is_in_tree(scene, own) && sphere_blocks(&scene->spheres[own], own, segment))
-        return true;
-    struct sphere_walk walk = walk_segment(scene, segment);
-    for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;)
-        if (sphere_blocks(&scene->spheres[i], i, segment))
-            return true;
-    return false;
+    for (int i = 0; i < tried_spheres(scene); ++i)
+        if (sphere_blocks(scene, i, segment))
+            return i;
+    const int in_tree = scene->tree ? find_blocker_in_tree(scene, segment, any) : NO_SURFACE;
+    if (in_tree != NO_SURFACE)
+        return in_tree;
+    for (int i = 0; i < scene->plane_count; ++i)
+        if (plane_blocks(&scene->planes[i], scene->sphere_count + i, segment))
+            return scene->sphere_count + i;
+    return NO_SURFACE;
 }
 
 static inline bool is_blocked(const struct packed_scene *scene, const struct segment *segment)
 {
-    for (int i = 0; i < tried_spheres(scene); ++i)
-        if (tried_sphere_blocks(scene, i, segment))
-            return true;
-    for (int i = 0; i < scene->plane_count; ++i)
-        if (plane_blocks(&scene->planes[i], scene->sphere_count + i, segment))
-            return true;
-    return scene->tree && tree_blocks(scene, segment);
+    return find_blocker(scene, segment, true) != NO_SURFACE;
 }
 
 #endif

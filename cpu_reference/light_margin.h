@@ -5,67 +5,44 @@
 #include "margin.h"
 #include "matte.h"
 
-/* Margin of one sphere's blocking the segment or not; *blocks gets which. */
-static inline double sphere_block_margin(const struct PackedSphere *sphere, int surface,
-                                         const struct segment *segment, double e_from, double e_direction,
-                                         bool *blocks)
+/* Margin of sphere i's blocking the segment or not; *blocks gets which. */
+static inline double sphere_block_margin(const struct packed_scene *scene, int i,
+                                         const struct segment *segment, struct ray_error error, bool *blocks)
 {
-    bool own = segment->surface == surface;
-    *blocks = sphere_blocks(sphere, surface, segment);
+    const layout_ivec4 tags = scene->spheres[i].tags;
+    const bool own = segment->surface == i;
+    *blocks = sphere_blocks(scene, i, segment);
     if (own && !segment->inward)
         return INFINITY;
     double margin = INFINITY;
     bool inside = own;
-    if (sphere->tags.HOLDS_LIGHTS != 0) {
-        margin = inside_margin(sphere->center_radius, segment->to, rounding(length(segment->to)));
-        inside = inside || contains(sphere, segment->to);
-    }
-    if (!own && sphere->tags.HOLDS_RAYS != 0) {
-        margin = smaller(margin, inside_margin(sphere->center_radius, segment->from, e_from));
-        inside = inside || contains(sphere, segment->from);
-    }
-    if (inside)
-        return margin; /* where the ends lie decides all */
-    struct tracked_approach approach = track_approach(
-        sphere->center_radius, segment->from, segment->direction, (struct ray_error){e_from, e_direction});
-    struct conjunction blocked = conjunction_begin();
-    require_positive(&blocked, approach.along, approach.e_along);
-    require_positive(&blocked, approach.clearance, approach.e_clearance);
-    require_positive(&blocked, (double)segment->length - approach.along, approach.e_along + e_from);
-    return smaller(margin, conjunction_margin(&blocked));
-}
-
-/* Of a giant. */
-static inline double giant_block_margin(const struct packed_scene *scene, int i,
-                                        const struct segment *segment, double e_from, double e_direction,
-                                        bool *blocks)
-{
-    const layout_ivec4 tags = scene->spheres[i].tags;
-    const bool own = segment->surface == i;
-    *blocks = tried_sphere_blocks(scene, i, segment);
-    if (own && !segment->inward)
-        return INFINITY;
-    struct giant giant = giant_of(scene, i);
-    struct tracked_giant_line line =
-        track_giant_line(&giant, segment->from, segment->direction, (struct ray_error){e_from, e_direction},
-                         !own && tags.HOLDS_RAYS != 0);
-    double margin = INFINITY;
-    bool inside = own || line.height < 0;
     if (tags.HOLDS_LIGHTS != 0) {
-        double height = (double)giant_height(&giant, segment->to);
-        margin = margin_of(height, height_error(&giant, segment->to, rounding(length(segment->to))));
-        inside = inside || height < 0;
+        margin = inside_margin(scene, i, segment->to, rounding(length(segment->to)));
+        inside = inside || lies_inside(scene, i, segment->to);
     }
-    if (!own && tags.HOLDS_RAYS != 0)
-        margin = smaller(margin, margin_of(line.height, line.e_height));
+    if (!own && tags.HOLDS_RAYS != 0) {
+        margin = smaller(margin, inside_margin(scene, i, segment->from, error.origin));
+        inside = inside || lies_inside(scene, i, segment->from);
+    }
     if (inside)
         return margin; /* where the ends lie decides all */
-    double bend = (double)giant.curvature * (double)segment->length;
     struct conjunction blocked = conjunction_begin();
-    require_positive(&blocked, -line.slope, line.e_slope);
-    require_positive(&blocked, line.root_squared, line.e_root_squared);
-    require_positive(&blocked, bend + line.slope,
-                     line.e_slope + (double)giant.curvature * e_from + rounding(bend));
+    if (is_giant(scene, i)) {
+        struct giant giant = giant_of(scene, i);
+        struct tracked_giant_line line =
+            track_giant_line(&giant, segment->from, segment->direction, error, tags.HOLDS_RAYS != 0);
+        double bend = (double)giant.curvature * (double)segment->length;
+        require_positive(&blocked, -line.slope, line.e_slope);
+        require_positive(&blocked, line.root_squared, line.e_root_squared);
+        require_positive(&blocked, bend + line.slope,
+                         line.e_slope + (double)giant.curvature * error.origin + rounding(bend));
+    } else {
+        struct tracked_approach approach =
+            track_approach(scene->spheres[i].center_radius, segment->from, segment->direction, error);
+        require_positive(&blocked, approach.along, approach.e_along);
+        require_positive(&blocked, approach.clearance, approach.e_clearance);
+        require_positive(&blocked, (double)segment->length - approach.along, approach.e_along + error.origin);
+    }
     return smaller(margin, conjunction_margin(&blocked));
 }
 
@@ -102,21 +79,18 @@ static inline void add_blocker(struct shadow *shadow, bool blocks, double margin
 }
 
 static inline void add_sphere(const struct packed_scene *scene, int i, const struct segment *segment,
-                              double e_from, double e_direction, struct shadow *shadow)
+                              struct ray_error error, struct shadow *shadow)
 {
     bool blocks;
-    double margin = is_giant(scene, i)
-                        ? giant_block_margin(scene, i, segment, e_from, e_direction, &blocks)
-                        : sphere_block_margin(&scene->spheres[i], i, segment, e_from, e_direction, &blocks);
+    double margin = sphere_block_margin(scene, i, segment, error, &blocks);
     add_blocker(shadow, blocks, margin);
 }
 
 /* As tree_line_in_float(). */
-static inline struct tree_line tree_segment_in_float(const struct segment *segment, double e_from,
-                                                     double e_direction, double wanted)
+static inline struct tree_line tree_segment_in_float(const struct segment *segment, struct ray_error error,
+                                                     double wanted)
 {
-    struct tree_line line = tree_line_in_float(segment->from, segment->direction,
-                                               (struct ray_error){e_from, e_direction}, wanted);
+    struct tree_line line = tree_line_in_float(segment->from, segment->direction, error, wanted);
     line.has_end = true;
     line.end = to_tree_vector(segment->to);
     line.e_end = tree_rounding(segment->to) + wanted * rounding(length(segment->to));
@@ -125,18 +99,18 @@ static inline struct tree_line tree_segment_in_float(const struct segment *segme
 
 /* Those that the tree does not rule out, which looks ever closer as smaller margins are found. */
 static inline void add_tree_spheres(const struct packed_scene *scene, const struct segment *segment,
-                                    double e_from, double e_direction, struct shadow *shadow)
+                                    struct ray_error error, struct shadow *shadow)
 {
     if (is_in_tree(scene, segment->surface))
-        add_sphere(scene, segment->surface, segment, e_from, e_direction, shadow);
+        add_sphere(scene, segment->surface, segment, error, shadow);
     double wanted = smaller(shadow->weakest, 1);
-    const struct tree_line line = tree_segment_in_float(segment, e_from, e_direction, wanted);
+    const struct tree_line line = tree_segment_in_float(segment, error, wanted);
     struct sphere_walk walk = sphere_walk_begin(scene->tree, &line, (double)segment->length);
     for (int i; (i = sphere_walk_next(&walk)) != NO_MORE_SPHERES;) {
-        add_sphere(scene, i, segment, e_from, e_direction, shadow);
+        add_sphere(scene, i, segment, error, shadow);
         if (shadow->weakest < wanted) {
             wanted = shadow->weakest;
-            walk.line = tree_segment_in_float(segment, e_from, e_direction, wanted);
+            walk.line = tree_segment_in_float(segment, error, wanted);
         }
     }
 }
@@ -144,17 +118,17 @@ static inline void add_tree_spheres(const struct packed_scene *scene, const stru
 /* Margin of the light point's being hidden; *hides gets whether it is. Where it is not, a margin of at least
  * 1 may be larger with a tree. */
 static inline double shadow_margin(const struct packed_scene *scene, const struct segment *segment,
-                                   double e_from, double e_direction, bool *hides)
+                                   struct ray_error error, bool *hides)
 {
     struct shadow shadow = {.weakest = INFINITY};
     for (int i = 0; i < tried_spheres(scene); ++i)
-        add_sphere(scene, i, segment, e_from, e_direction, &shadow);
+        add_sphere(scene, i, segment, error, &shadow);
     if (scene->tree)
-        add_tree_spheres(scene, segment, e_from, e_direction, &shadow);
+        add_tree_spheres(scene, segment, error, &shadow);
     for (int i = 0; i < scene->plane_count; ++i) {
         bool blocks;
         double margin =
-            plane_block_margin(&scene->planes[i], scene->sphere_count + i, segment, e_from, &blocks);
+            plane_block_margin(&scene->planes[i], scene->sphere_count + i, segment, error.origin, &blocks);
         add_blocker(&shadow, blocks, margin);
     }
     *hides = shadow.hides;
@@ -226,7 +200,7 @@ track_receive(const struct packed_scene *scene, const struct matte_point *matte,
     const double cos_in = (double)dot(hit->normal, sample.direction);
     const double e_cos_in = dot_error(hit->normal, point->hit.normal, sample.direction, sample.e_direction);
     sample.margin = INFINITY;
-    NOTE_LIGHT_BOUNDS(e_light, length_error(distance, off), e_cos_in, 0, INFINITY);
+    TELL(note_light_bounds(errors_vector(e_light), length_error(distance, off), e_cos_in, 0, INFINITY));
     if (cos_in < -e_cos_in)
         return sample;
     double e_factor, factor = track_factor(matte, point, &sample, cos_in, e_cos_in, &e_factor);
@@ -237,8 +211,8 @@ track_receive(const struct packed_scene *scene, const struct matte_point *matte,
     const double falloff = 1 / (distance * distance), largest_falloff = 1 / (nearest * nearest);
     struct conjunction lit = conjunction_begin();
     bool hides = false;
-    const double shadow = shadow_margin(scene, &segment, errors_length(point->hit.point),
-                                        errors_length(sample.e_direction), &hides);
+    const struct ray_error error = {errors_length(point->hit.point), errors_length(sample.e_direction)};
+    const double shadow = shadow_margin(scene, &segment, error, &hides);
     sample.may_hide = shadow < 1;
     if (!hides || sample.may_hide)
         sample.error = (factor + e_factor) * largest_falloff - (sample.may_hide ? 0 : factor * falloff) +
@@ -249,7 +223,8 @@ track_receive(const struct packed_scene *scene, const struct matte_point *matte,
         require_positive(&lit, (double)dot(vector_of(quad->area_normal), sample.direction),
                          dot_error(vector_of(quad->area_normal), none, sample.direction, sample.e_direction));
     sample.margin = conjunction_margin(&lit);
-    NOTE_LIGHT_BOUNDS(e_light, length_error(distance, off), e_cos_in, sample.error, sample.margin);
+    TELL(note_light_bounds(errors_vector(e_light), length_error(distance, off), e_cos_in, sample.error,
+                           sample.margin));
     return sample;
 }
 
@@ -295,8 +270,8 @@ static inline void track_quad(const struct packed_scene *scene, int number, cons
         double e_projected =
             dot_error(area, none, sample.direction, sample.e_direction) + FLT_MIN; /* denormal */
         double largest = larger((double)dot(area, sample.direction) + e_projected, 0);
-        NOTE_AREA_BOUND(e_projected);
-        RECORD_LIGHT(scene->point_light_count + number, k, light, projected);
+        TELL(event_light.area_bound = e_projected);
+        TELL(record_light(scene->point_light_count + number, k, light, projected));
         sum += lit ? sample.received * (double)projected : 0;
         errors[sample.may_hide] += sample.error * largest + sample.received * smaller(e_projected, largest);
         result->margin = smaller(result->margin, sample.margin);
@@ -317,7 +292,7 @@ static inline struct tracked_light track_lights(const struct packed_scene *scene
         struct tracked_sample sample = track_receive(scene, &matte, point, NULL, position,
                                                      (struct errors){0, 0, 0, 0}, &to_light, tally);
         note(tally, sample.received > 0);
-        RECORD_LIGHT(i, 0, position, 1);
+        TELL(record_light(i, 0, position, 1));
         add_light(&light, scene->point_lights[i].intensity, sample.received,
                   sample.may_hide ? 0 : sample.error, sample.may_hide ? sample.error : 0);
         light.margin = smaller(light.margin, sample.margin);

@@ -75,23 +75,23 @@ static inline struct tracked_approach track_approach(layout_vec4 center_radius, 
     };
 }
 
-/* How far float's `lies_inside` is from the other answer. */
-static inline double inside_margin(layout_vec4 center_radius, struct vec3 point, double e_point)
-{
-    double apart = length(subtract(vector_of(center_radius), point)), radius = (double)center_radius.w;
-    return margin_of(apart - radius, e_point + rounding(apart + radius));
-}
-
-static inline bool contains(const struct PackedSphere *sphere, struct vec3 point)
-{
-    return lies_inside(subtract(vector_of(sphere->center_radius), point), sphere->center_radius.w);
-}
-
 /* Of a height over a giant; no gradient on the way to the point is longer than `steepest`. */
 static inline double height_error(const struct giant *giant, struct vec3 point, double e_point)
 {
     double steepest = length(giant->gradient) + (double)giant->curvature * length(point);
     return e_point * steepest + rounding(fabs((double)giant->offset) + length(point) * steepest);
+}
+
+/* How far float's lies_inside() is from the other answer. */
+static inline double inside_margin(const struct packed_scene *scene, int i, struct vec3 point, double e_point)
+{
+    if (is_giant(scene, i)) {
+        struct giant giant = giant_of(scene, i);
+        return margin_of((double)giant_height(&giant, point), height_error(&giant, point, e_point));
+    }
+    layout_vec4 sphere = scene->spheres[i].center_radius;
+    double apart = length(subtract(vector_of(sphere), point)), radius = (double)sphere.w;
+    return margin_of(apart - radius, e_point + rounding(apart + radius));
 }
 
 /* As giant_line(), with errors. */
@@ -160,60 +160,57 @@ static inline double distance_error(const struct packed_scene *scene, const stru
     return slope > 0 ? (error.origin + distance * error.direction + rounding(size)) / slope : INFINITY;
 }
 
-/* As sphere_margin(). */
-static inline double giant_margin(const struct packed_scene *scene, int i, const struct ray *ray,
-                                  struct ray_error error, double nearest_distance, double e_nearest)
+/* Margin of the far side of sphere i, which is certain to be met, not being the nearest hit. */
+static inline double far_side_margin(const struct packed_scene *scene, int i, const struct ray *ray,
+                                     struct ray_error error, double nearest_distance, double e_nearest)
 {
-    const bool own = ray->surface == i, holds_rays = !own && scene->spheres[i].tags.HOLDS_RAYS != 0;
-    struct giant giant = giant_of(scene, i);
-    struct tracked_giant_line line = track_giant_line(&giant, ray->origin, ray->direction, error, holds_rays);
-    real distance;
-    bool from_inside;
-    bool met = meet_giant(&giant, holds_rays, i, ray, &distance, &from_inside);
-    if (own && !met)
-        return INFINITY;
-    double margin = holds_rays ? margin_of(line.height, line.e_height) : INFINITY;
-    if (from_inside) /* certain to be met, at its far side */
-        return smaller(margin,
-                       margin_of(nearest_distance - (double)distance,
-                                 e_nearest + giant_distance_error(&giant, &line, own, (double)distance)));
-    struct conjunction before = conjunction_begin();
-    require_positive(&before, -line.slope, line.e_slope);
-    require_positive(&before, line.root_squared, line.e_root_squared);
-    /* as for planes: 2 height / divisor < nearest_distance */
-    double divisor = line.root - line.slope, e_divisor = line.e_slope + line.e_root;
-    require_positive(&before, nearest_distance * divisor - 2 * line.height,
-                     2 * line.e_height + nearest_distance * e_divisor + e_nearest * fabs(divisor));
-    return smaller(margin, conjunction_margin(&before));
+    if (is_giant(scene, i)) {
+        real distance;
+        bool from_inside;
+        meet_sphere(scene, i, ray, &distance, &from_inside);
+        return margin_of(nearest_distance - (double)distance,
+                         e_nearest + distance_error(scene, ray, i, (double)distance, error));
+    }
+    struct tracked_approach approach =
+        track_approach(scene->spheres[i].center_radius, ray->origin, ray->direction, error);
+    if (ray->surface == i)
+        return margin_of(nearest_distance - 2 * approach.along, e_nearest + 2 * approach.e_along);
+    return margin_of(nearest_distance - approach.along - approach.half_chord,
+                     e_nearest + approach.e_along + approach.e_half_chord);
 }
 
 /* Margin of a sphere's not being the nearest hit, which is at nearest_distance +- e_nearest. */
 static inline double sphere_margin(const struct packed_scene *scene, int i, const struct ray *ray,
                                    struct ray_error error, double nearest_distance, double e_nearest)
 {
-    const struct PackedSphere *sphere = &scene->spheres[i];
-    if (is_giant(scene, i))
-        return giant_margin(scene, i, ray, error, nearest_distance, e_nearest);
-    struct tracked_approach approach =
-        track_approach(sphere->center_radius, ray->origin, ray->direction, error);
-    if (ray->surface == i) /* certain to be met, at its far side, or certain not to be */
-        return ray->inward
-                   ? margin_of(nearest_distance - 2 * approach.along, e_nearest + 2 * approach.e_along)
-                   : INFINITY;
-    double margin = INFINITY;
-    if (sphere->tags.HOLDS_RAYS != 0) {
-        margin = inside_margin(sphere->center_radius, ray->origin, error.origin);
-        if (contains(sphere, ray->origin)) /* likewise */
-            return smaller(margin, margin_of(nearest_distance - approach.along - approach.half_chord,
-                                             e_nearest + approach.e_along + approach.e_half_chord));
-    }
-    struct conjunction met = conjunction_begin();
-    require_positive(&met, approach.along, approach.e_along);
-    require_positive(&met, approach.clearance, approach.e_clearance);
+    const bool own = ray->surface == i, holds_rays = !own && scene->spheres[i].tags.HOLDS_RAYS != 0;
+    if (own && !ray->inward) /* certain not to be met */
+        return INFINITY;
+    double margin = holds_rays ? inside_margin(scene, i, ray->origin, error.origin) : INFINITY;
+    if (own || (holds_rays && lies_inside(scene, i, ray->origin)))
+        return smaller(margin, far_side_margin(scene, i, ray, error, nearest_distance, e_nearest));
     /* Met or not, it matters only where it is not clearly behind the nearest. */
-    double front = approach.along - approach.half_chord;
-    require_positive(&met, nearest_distance - front, e_nearest + approach.e_along + approach.e_half_chord);
-    return smaller(margin, conjunction_margin(&met));
+    struct conjunction before = conjunction_begin();
+    if (is_giant(scene, i)) {
+        struct giant giant = giant_of(scene, i);
+        struct tracked_giant_line line =
+            track_giant_line(&giant, ray->origin, ray->direction, error, holds_rays);
+        require_positive(&before, -line.slope, line.e_slope);
+        require_positive(&before, line.root_squared, line.e_root_squared);
+        /* as for planes: 2 height / divisor < nearest_distance */
+        double divisor = line.root - line.slope, e_divisor = line.e_slope + line.e_root;
+        require_positive(&before, nearest_distance * divisor - 2 * line.height,
+                         2 * line.e_height + nearest_distance * e_divisor + e_nearest * fabs(divisor));
+    } else {
+        struct tracked_approach approach =
+            track_approach(scene->spheres[i].center_radius, ray->origin, ray->direction, error);
+        require_positive(&before, approach.along, approach.e_along);
+        require_positive(&before, approach.clearance, approach.e_clearance);
+        double front = approach.along - approach.half_chord;
+        require_positive(&before, nearest_distance - front,
+                         e_nearest + approach.e_along + approach.e_half_chord);
+    }
+    return smaller(margin, conjunction_margin(&before));
 }
 
 /* Whether the ray meets the side of a plane on which its height is positive, before the nearest distance. */

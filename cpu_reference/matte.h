@@ -32,18 +32,18 @@ static inline real receive(const struct packed_scene *scene, const struct matte_
     const struct hit *hit = matte->hit;
     struct vec3 way = subtract(light, hit->point);
     real distance_squared = dot(way, way);
-    NOTE_LIGHT_TOO_NEAR();
+    TELL(note_light(LIGHT_TOO_NEAR, 0, 0));
     if (!(distance_squared > (real)NEAREST_LIGHT_SQUARED))
         return 0;
     real distance = square_root(distance_squared);
     real inverse = 1 / distance;
     *to_light = scale(inverse, way);
     real cos_in = dot(hit->normal, *to_light);
-    NOTE_LIGHT_BEHIND(distance, cos_in);
+    TELL(note_light(LIGHT_BEHIND, distance, cos_in));
     if (!(cos_in > 0))
         return 0;
     ++tally->rays.shadow;
-    NOTE_SHADOW_RAY();
+    TELL(note_light(LIGHT_SHADOW_RAY, distance, cos_in));
     struct segment segment = {
         .from = hit->point,
         .to = light,
@@ -53,13 +53,13 @@ static inline real receive(const struct packed_scene *scene, const struct matte_
         .inward = hit->from_inside,
     };
     if (is_blocked(scene, &segment)) {
-        NOTE_BLOCKED(scene, &segment);
+        TELL(event_light.blocker = find_blocker(scene, &segment, false));
         return 0;
     }
     real factor =
         oren_nayar(hit->material->parameters.OREN_NAYAR_A, hit->material->more_parameters.OREN_NAYAR_B,
                    *to_light, matte->ray->direction, cos_in, matte->cos_out);
-    NOTE_RECEIVED(factor * (inverse * inverse));
+    TELL(event_light.values.z = factor * (inverse * inverse));
     return factor * (inverse * inverse);
 }
 
@@ -78,7 +78,8 @@ static inline struct vec3 receive_quad(const struct packed_scene *scene, const s
         real projected_area = dot(vector_of(quad->area_normal), to_light);
         bool lit = received > 0 && projected_area > 0;
         note(tally, lit);
-        RECORD_LIGHT(scene->point_light_count + (int)(quad - scene->quad_lights), k, light, projected_area);
+        TELL(record_light(scene->point_light_count + (int)(quad - scene->quad_lights), k, light,
+                          projected_area));
         if (lit)
             sum = sum + received * projected_area;
     }
@@ -96,7 +97,7 @@ static inline struct vec3 reflect_lights(const struct packed_scene *scene, const
         struct vec3 to_light;
         real received = receive(scene, &matte, vector_of(scene->point_lights[i].position), &to_light, tally);
         note(tally, received > 0);
-        RECORD_LIGHT(i, 0, vector_of(scene->point_lights[i].position), 1);
+        TELL(record_light(i, 0, vector_of(scene->point_lights[i].position), 1));
         sum = add(sum, scale(received, vector_of(scene->point_lights[i].intensity)));
     }
     for (int i = 0; i < scene->quad_light_count; ++i)

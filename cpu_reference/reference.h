@@ -1,6 +1,7 @@
 #ifndef VKWHITTED_REFERENCE_H
 #define VKWHITTED_REFERENCE_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "packed_scene.h"
@@ -16,27 +17,34 @@ static inline void rays_add(struct reference_rays *sum, struct reference_rays mo
     sum->shadow += more.shadow;
 }
 
-/* Part of the picture, in pixels from the top left. */
-struct reference_window {
-    int x, y, width, height;
+/* One step of a pixel's ray tree; scene_layout.h says what the kinds hold. Lengths are in scene units. */
+struct reference_event {
+    struct EventHead head;
+    double values[EVENT_VALUES];
+    double bounds[EVENT_VALUES]; /* on float's error in each value; the analysis alone knows it */
+    double margin; /* of the decisions made here, as in margin.h; INFINITY where there are none */
 };
 
-/* What the window's pixels get, row by row from the top. */
-struct reference_picture {
-    double *rgb;                /* linear RGB radiance, rounded to double: 3 * width * height */
-    uint32_t *signatures;       /* hash of every decision of the ray tree; NULL: not wanted */
-    double *charges;            /* for rays that were not traced; NULL: not wanted */
-    struct reference_rays rays; /* what was traced is added */
+/* Events in the order of the recursion. Those beyond the room are counted and not kept. */
+struct reference_log {
+    struct reference_event *events;
+    size_t room, count;
 };
 
-/* Traces the window of the scene's picture in float, double or binary128, on so many threads. The float build
- * computes what the shader does in exact mode, operation by operation. */
-void reference_render_float(const struct packed_scene *scene, struct reference_window window, int threads,
-                            struct reference_picture *picture);
-void reference_render_double(const struct packed_scene *scene, struct reference_window window, int threads,
-                             struct reference_picture *picture);
-void reference_render_quad(const struct packed_scene *scene, struct reference_window window, int threads,
-                           struct reference_picture *picture);
+/* A pixel, and what was traced for it. */
+struct reference_pixel {
+    double rgb[3];      /* linear radiance, rounded to double */
+    double charges;     /* for rays that were not traced */
+    uint32_t signature; /* hash of every decision of the ray tree */
+    struct reference_rays rays;
+};
+
+/* Traces the pixel at (x, y) of the scene's picture, from the top left, in float, double or binary128. The
+ * float build computes what the shader does in exact mode, operation by operation. What happens is appended
+ * to the log, if there is one. */
+typedef struct reference_pixel reference_tracer(const struct packed_scene *scene, int x, int y,
+                                                struct reference_log *log);
+reference_tracer reference_trace_float, reference_trace_double, reference_trace_quad;
 
 /* What widens a pixel's bound most. */
 enum reference_cause {
@@ -59,11 +67,10 @@ struct reference_explanation {
     uint32_t cause; /* enum reference_cause, of the bound */
 };
 
-/* Traces the window in double or binary128 with the error analysis of NUMERICS.md: width * height
- * explanations, row by row from the top. */
-void reference_explain_double(const struct packed_scene *scene, struct reference_window window, int threads,
-                              struct reference_explanation *explanations);
-void reference_explain_quad(const struct packed_scene *scene, struct reference_window window, int threads,
-                            struct reference_explanation *explanations);
+/* Traces the pixel in double or binary128 with the error analysis of NUMERICS.md. The log gets bounds and
+ * margins as well; no EVENT_SAMPLE, and no charges. */
+typedef struct reference_explanation reference_explainer(const struct packed_scene *scene, int x, int y,
+                                                         struct reference_log *log);
+reference_explainer reference_explain_double, reference_explain_quad;
 
 #endif

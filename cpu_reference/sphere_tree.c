@@ -118,28 +118,24 @@ static double larger(double a, double b)
 /* About the middle of the box around the spheres. *axis gets the longest of the box around their centres. */
 static struct ball ball_around(const struct item *items, size_t count, int *axis)
 {
-    struct tree_vector first = to_vector(items[0].center), least = first, most = first, low = first,
-                       high = first;
-    for (size_t i = 0; i < count; ++i) {
-        struct tree_vector center = to_vector(items[i].center);
-        double radius = (double)items[i].radius;
-        least.x = -larger(-least.x, -center.x);
-        least.y = -larger(-least.y, -center.y);
-        least.z = -larger(-least.z, -center.z);
-        most.x = larger(most.x, center.x);
-        most.y = larger(most.y, center.y);
-        most.z = larger(most.z, center.z);
-        low.x = -larger(-low.x, radius - center.x);
-        low.y = -larger(-low.y, radius - center.y);
-        low.z = -larger(-low.z, radius - center.z);
-        high.x = larger(high.x, center.x + radius);
-        high.y = larger(high.y, center.y + radius);
-        high.z = larger(high.z, center.z + radius);
+    /* of both boxes the upper sides, and the lower ones times -1 */
+    double most[3], least[3], high[3], low[3], middle[3], longest = -1;
+    for (int a = 0; a < 3; ++a) {
+        most[a] = least[a] = high[a] = low[a] = -INFINITY;
+        for (size_t i = 0; i < count; ++i) {
+            double center = (double)items[i].center[a], radius = (double)items[i].radius;
+            most[a] = larger(most[a], center);
+            least[a] = larger(least[a], -center);
+            high[a] = larger(high[a], center + radius);
+            low[a] = larger(low[a], radius - center);
+        }
+        middle[a] = (high[a] - low[a]) / 2;
+        if (most[a] + least[a] > longest) {
+            longest = most[a] + least[a];
+            *axis = a;
+        }
     }
-    struct tree_vector sides = minus(most, least);
-    *axis = sides.x >= sides.y && sides.x >= sides.z ? 0 : sides.y >= sides.z ? 1 : 2;
-    struct tree_vector middle = {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
-    return ball_about(middle, items, count);
+    return ball_about((struct tree_vector){middle[0], middle[1], middle[2]}, items, count);
 }
 
 struct building {

@@ -1,6 +1,5 @@
 /* Whitted's recursion as the textbook writes it ("An Improved Illumination Model for Shaded Display", CACM
- * 23(6), 1980). Built once for each precision, with REFERENCE_BITS and the entry's name REFERENCE_RENDER,
- * or REFERENCE_RECORD for the one that tells what it does. */
+ * 23(6), 1980). Built once for each precision, with REFERENCE_BITS and the entry's name REFERENCE_TRACE. */
 #include "camera.h"
 #include "dielectric.h"
 #include "escape.h"
@@ -93,7 +92,7 @@ static real add_exactly(real a, real b, real *rounding)
 static void gather(struct sample *sample, real weight, struct vec3 radiance)
 {
     struct vec3 leaf = scale(weight, radiance);
-    RECORD_LEAF(radiance, leaf);
+    TELL(record_leaf(radiance, leaf));
     sample->radiance.x = add_exactly(sample->radiance.x, leaf.x, &sample->rounding.x);
     sample->radiance.y = add_exactly(sample->radiance.y, leaf.y, &sample->rounding.y);
     sample->radiance.z = add_exactly(sample->radiance.z, leaf.z, &sample->rounding.z);
@@ -109,7 +108,7 @@ static void trace_dielectric(struct sample *sample, const struct path *path, con
         hit->from_inside ? refract(direction, hit->normal, cos_in, glass.ETA_EXITING, glass.KAPPA_EXITING)
                          : refract(direction, hit->normal, cos_in, glass.ETA_ENTERING, glass.KAPPA_ENTERING);
     note(&sample->tally, refraction.total);
-    RECORD_SPLIT(cos_in, refraction);
+    TELL(record_split(cos_in, refraction));
     if (refraction.total) {
         trace_secondary(sample, &reflected);
         return;
@@ -124,8 +123,10 @@ static void trace_dielectric(struct sample *sample, const struct path *path, con
     real open = sample->waiting + root_of(reflected.weight) + root_of(refracted.weight);
     bool reflects = is_traced(sample, reflected.weight, open);
     bool refracts = is_traced(sample, refracted.weight, open);
-    RECORD_UNTRACED(!reflects, UNTRACED_REFLECTED, reflected.weight, 0, sample->charge);
-    RECORD_UNTRACED(!refracts, UNTRACED_REFRACTED, refracted.weight, 0, sample->charge);
+    if (!reflects)
+        TELL(record_untraced(UNTRACED_REFLECTED, reflected.weight, 0, sample->charge));
+    if (!refracts)
+        TELL(record_untraced(UNTRACED_REFRACTED, refracted.weight, 0, sample->charge));
     if (refracts && reflects) {
         sample->waiting += root_of(reflected.weight);
         trace_secondary(sample, &refracted);
@@ -143,9 +144,9 @@ static void trace(struct sample *sample, const struct path *path)
     const struct packed_scene *scene = sample->scene;
     const struct ray *ray = &path->ray;
     struct hit hit;
-    RECORD_RAY(sample->index, path);
+    TELL(record_ray(sample->index, ray, path->weight, path->bounces, path->branch));
     bool met = find_hit(scene, ray, &hit);
-    RECORD_HIT(&hit);
+    TELL(record_hit(&hit));
     note(&sample->tally, (uint32_t)(hit.surface + 1) * 2 + hit.from_inside);
     if (!met) {
         gather(sample, path->weight, vector_of(scene->view.background));
@@ -159,7 +160,7 @@ static void trace(struct sample *sample, const struct path *path)
     }
     if (path->bounces == scene->max_bounces) {
         charge(sample, path->weight);
-        RECORD_UNTRACED(true, UNTRACED_BOUNCES, path->weight, 0, sample->charge);
+        TELL(record_untraced(UNTRACED_BOUNCES, path->weight, 0, sample->charge));
         return;
     }
     struct path reflected = *path;
@@ -175,43 +176,10 @@ static void trace(struct sample *sample, const struct path *path)
         return;
     }
     bool escaping = scene->view.between_mirrors.w != 0 && escapes(scene, &reflected.ray);
-    RECORD_UNTRACED(escaping, UNTRACED_ESCAPES, path->weight, 0, sample->charge);
-    if (!escaping)
+    if (escaping)
+        TELL(record_untraced(UNTRACED_ESCAPES, path->weight, 0, sample->charge));
+    else
         trace_secondary(sample, &reflected);
-}
-
-struct pixel {
-    struct vec3 radiance;
-    real charges; /* summed over the samples */
-    struct tally tally;
-};
-
-static struct pixel trace_pixel(const struct packed_scene *scene, int x, int y)
-{
-    struct pixel pixel = {.charges = 0};
-    for (uint32_t k = 0; k < (uint32_t)scene->samples; ++k) {
-        struct sample sample = {
-            .scene = scene,
-            .seed = pixel_seed(x, y),
-            .index = k,
-            .room = (real)scene->view.truncation.ALLOWANCE,
-            .tally = pixel.tally,
-        };
-        struct path path = {.ray = camera_ray(scene, x, y, k), .weight = 1};
-        ++sample.tally.rays.primary;
-        trace(&sample, &path);
-        struct vec3 radiance = add(sample.radiance, sample.rounding);
-        RECORD(EVENT_SAMPLE, (layout_ivec4){0}, radiance, (struct vec3){0}, sample.charge);
-        pixel.radiance = add(pixel.radiance, radiance);
-        pixel.charges = (pixel.charges + sample.charge) * (real)ROUND_UP;
-        pixel.tally = sample.tally;
-    }
-    if (scene->samples > 1) {
-        real count = (real)scene->samples;
-        pixel.radiance =
-            (struct vec3){pixel.radiance.x / count, pixel.radiance.y / count, pixel.radiance.z / count};
-    }
-    return pixel;
 }
 
 /* A NaN stays to be seen. */
@@ -220,41 +188,37 @@ static double flush_small(real x)
     return x < (real)SMALLEST_WEIGHT ? 0.0 : (double)x;
 }
 
-#ifdef REFERENCE_RECORD
-
-void REFERENCE_RECORD(const struct packed_scene *scene, int x, int y, struct reference_log *log)
-{
+struct reference_pixel REFERENCE_TRACE(const struct packed_scene *scene, int x, int y,
+                                       struct reference_log *log) {
+    struct vec3 sum = {0, 0, 0};
+    real charges = 0;
+    struct tally tally = {.signature = 0};
     event_log = log;
-    struct vec3 radiance = trace_pixel(scene, x, y).radiance;
-    struct vec3 flushed = {(real)flush_small(radiance.x), (real)flush_small(radiance.y),
-                           (real)flush_small(radiance.z)};
-    RECORD(EVENT_PIXEL, (layout_ivec4){0}, flushed, (struct vec3){0}, 0);
-}
-
-#else
-
-void REFERENCE_RENDER(const struct packed_scene *scene, struct reference_window window, int threads,
-                      struct reference_picture *picture)
-{
-    uint64_t primary = 0, secondary = 0, shadow = 0;
-#pragma omp parallel for schedule(dynamic) num_threads(threads) reduction(+ : primary, secondary, shadow)
-    for (int row = 0; row < window.height; ++row) {
-        for (int column = 0; column < window.width; ++column) {
-            struct pixel pixel = trace_pixel(scene, window.x + column, window.y + row);
-            size_t place = (size_t)row * (size_t)window.width + (size_t)column;
-            picture->rgb[3 * place] = flush_small(pixel.radiance.x);
-            picture->rgb[3 * place + 1] = flush_small(pixel.radiance.y);
-            picture->rgb[3 * place + 2] = flush_small(pixel.radiance.z);
-            if (picture->signatures)
-                picture->signatures[place] = pixel.tally.signature;
-            if (picture->charges)
-                picture->charges[place] = (double)pixel.charges;
-            primary += pixel.tally.rays.primary;
-            secondary += pixel.tally.rays.secondary;
-            shadow += pixel.tally.rays.shadow;
-        }
+    for (uint32_t k = 0; k < (uint32_t)scene->samples; ++k) {
+        struct sample sample = {
+            .scene = scene,
+            .seed = pixel_seed(x, y),
+            .index = k,
+            .room = (real)scene->view.truncation.ALLOWANCE,
+            .tally = tally,
+        };
+        struct path path = {.ray = camera_ray(scene, x, y, k), .weight = 1};
+        ++sample.tally.rays.primary;
+        trace(&sample, &path);
+        struct vec3 radiance = add(sample.radiance, sample.rounding);
+        TELL(record(EVENT_SAMPLE, (layout_ivec4){0}, radiance, each(0), sample.charge));
+        sum = add(sum, radiance);
+        charges = (charges + sample.charge) * (real)ROUND_UP;
+        tally = sample.tally;
     }
-    rays_add(&picture->rays, (struct reference_rays){primary, secondary, shadow});
+    real count = (real)scene->samples;
+    struct reference_pixel pixel = {
+        .rgb = {flush_small(sum.x / count), flush_small(sum.y / count), flush_small(sum.z / count)},
+        .charges = (double)charges,
+        .signature = tally.signature,
+        .rays = tally.rays,
+    };
+    struct vec3 flushed = {(real)pixel.rgb[0], (real)pixel.rgb[1], (real)pixel.rgb[2]};
+    TELL(record(EVENT_PIXEL, (layout_ivec4){0}, flushed, each(0), 0));
+    return pixel;
 }
-
-#endif

@@ -6,14 +6,14 @@ bool escapes(Ray ray)
     real3 normal = real3(hoisted_view.between_mirrors.xyz);
     real towards_mirror = dot3(ray.direction, normal);
     bool escaping = towards_mirror > real(MIRROR_DRIFT) || towards_mirror < -real(MIRROR_DRIFT);
-    FOR_EACH_OBJECT(i, PLANES, {
+    for (int i = 0; i < PLANES; ++i) {
         PackedPlane plane = get_plane(i);
         real away = dot3(ray.direction, real3(plane.normal_offset.xyz));
         escaping = escaping && (plane.surface.tags.SURFACE_KIND == KIND_MIRROR || away > real(MIRROR_DRIFT));
-    })
+    }
     exact real3 line = ray.direction - towards_mirror * normal;
     if (SPHERES > 0) // lavapipe runs the body of an empty loop once, masked
-        FOR_EACH_OBJECT(i, SPHERES, {
+        for (int i = 0; i < SPHERES; ++i) {
             vec4 sphere = get_sphere(i).center_radius;
             exact real3 to_center = real3(sphere.xyz) - ray.origin;
             exact real3 apart = to_center - dot3(to_center, normal) * normal;
@@ -25,6 +25,6 @@ bool escapes(Ray ray)
             exact real reach_on_line = reach_squared * line_squared;
             exact real beside = apart_squared * line_squared - along * along;
             escaping = escaping && (along > real(0) ? beside > reach_on_line : apart_squared > reach_squared);
-        })
+        }
     return escaping;
 }

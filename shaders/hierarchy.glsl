@@ -298,7 +298,7 @@ bool search_blocker(real3 point, int surface, bool inward, real3 to_light, real 
     }
     out_of_steps = search.at < stream_end && (RECORDS || !blocked);
     if (!out_of_steps) {
-        note_blocker(SPHERES + search.blocker, search.blocker >= 0);
+        TELL(note_blocker(SPHERES + search.blocker, search.blocker >= 0);)
         search.at = stream_begin;
         search.blocker = -1;
     }

@@ -169,13 +169,14 @@ Hit no_hit()
 Hit nearest_hit(Ray ray)
 {
     Hit nearest = no_hit();
-    FOR_EACH_OBJECT(i, SPHERES, {
+    for (int i = 0; i < SPHERES; ++i) {
         if (is_giant(i))
             meet_giant(ray, i, nearest);
         else
             meet_sphere(ray, i, nearest);
-    })
-    FOR_EACH_OBJECT(i, PLANES, meet_plane(ray, i, nearest);)
+    }
+    for (int i = 0; i < PLANES; ++i)
+        meet_plane(ray, i, nearest);
     if (HIERARCHY)
         search_nearest(ray, nearest);
     return nearest;
@@ -249,26 +250,26 @@ bool plane_shadows(int i, real3 point, int surface, real3 light)
 bool in_shadow(real3 point, int surface, bool inward, real3 to_light, real distance, real3 light)
 {
     bool shadowed = false;
-    note_no_blocker();
-    FOR_EACH_OBJECT(i, SPHERES, {
+    TELL(light_blocker = -1;)
+    for (int i = 0; i < SPHERES; ++i) {
         bool shadows;
         if (is_giant(i))
             shadows = giant_shadows(i, point, surface, inward, to_light, distance, light);
         else
             shadows = sphere_shadows(i, point, surface, inward, to_light, distance, light);
         shadowed = shadows || shadowed;
-        note_blocker(i, shadowed);
+        TELL(note_blocker(i, shadowed);)
         if (!PROCESSOR && shadowed) // lavapipe only masks what is skipped
             return true;
-    })
+    }
     if (HIERARCHY && !shadowed)
         shadowed = search_blocker(point, surface, inward, to_light, distance, light);
     if (PLANES_SHADOW)
-        FOR_EACH_OBJECT(i, PLANES, {
+        for (int i = 0; i < PLANES; ++i) {
             shadowed = plane_shadows(i, point, surface, light) || shadowed;
-            note_blocker(ALL_SPHERES + i, shadowed);
+            TELL(note_blocker(ALL_SPHERES + i, shadowed);)
             if (!PROCESSOR && shadowed)
                 return true;
-        })
+        }
     return shadowed;
 }

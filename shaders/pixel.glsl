@@ -116,7 +116,7 @@ bool end_sample(inout Pixel pixel)
     exact real3 sample_radiance = pixel.leaves + pixel.rounding;
     exact real3 radiance = pixel.radiance + sample_radiance;
     exact real charges = (pixel.charges + pixel.charge) * real(ROUND_UP);
-    emit_sample(sample_radiance, pixel.charge);
+    TELL(emit(EVENT_SAMPLE, ivec4(0), sample_radiance, real3(0), pixel.charge);)
     pixel.radiance = radiance;
     pixel.charges = charges;
     ++pixel.sample_index;
@@ -137,7 +137,7 @@ void store(uint place, Pixel pixel)
             value[c] = SAMPLES > 1 ? divide(value[c], real(SAMPLES)) : value[c];
             value[c] = value[c] < real(SMALLEST_WEIGHT) ? real(0) : value[c]; // a NaN stays to be seen
         }
-        emit_pixel(value);
+        TELL(emit(EVENT_PIXEL, ivec4(0), value, real3(0), real(0));)
     }
     picture[place] = real4(value, CHARGED ? pixel.charges : real(0));
 }

@@ -33,12 +33,11 @@ layout(constant_id = 27) const bool RAYS_ESCAPE = false; // see escape.glsl
 layout(constant_id = 28) const bool PROCESSOR = true; // the device is one, which runs invocations in the lanes of a vector
 layout(constant_id = 29) const bool SAMPLES_APART = false; // a dispatch does not have all samples of a pixel
 layout(constant_id = 30) const uint LIGHT_POINTS_A_TURN = ~0u; // of all lights, see shade.glsl
-layout(constant_id = 31) const int OBJECTS_A_TURN = 1; // of a loop over them
+layout(constant_id = 31) const uint GIANTS = 0u; // a bit for each sphere that is looped over: it is stored as a giant
 layout(constant_id = 32) const bool HOISTED = true; // see hoist_scene()
 layout(constant_id = 33) const bool PRIMARY_RAYS_FIRST = true; // see render_primary_rays()
 layout(constant_id = 34) const int ALL_SPHERES = 0; // those that are not looped over, too; see hierarchy.glsl
 layout(constant_id = 35) const uint MOST_STEPS = 0u; // of all searches in a dispatch
-layout(constant_id = 36) const uint GIANTS = 0u; // a bit for each sphere that is looped over: it is stored as a giant
 
 const bool SECONDARY_RAYS = (MIRRORS || GLASS) && MAX_BOUNCES > 0;
 
@@ -58,19 +57,7 @@ SCENE_ARRAY(4, PackedQuadLight, quad_lights, QUAD_LIGHTS);
 
 // Mesa's lavapipe loads a uniform once for all lanes only outside of control flow, and lane by lane inside. So small
 // scenes are hoisted: copied to variables first thing. Loops over them are unrolled, which makes registers of these.
-// Loops over lights and over objects. Drivers unroll them by themselves where the scene is small; made to unroll 400
-// objects, lavapipe's compiler takes minutes.
-#define FOR_EACH_LIGHT(i, count, statement) \
-    for (int i = 0; i < count; ++i)         \
-        statement
-#define FOR_EACH_OBJECT(i, count, statement)                                            \
-    for (int i##_turn = 0; i##_turn < count; i##_turn += OBJECTS_A_TURN)                \
-        [[unroll]] for (int i##_place = 0; i##_place < OBJECTS_A_TURN; ++i##_place) {   \
-            int i = i##_turn + i##_place;                                               \
-            if (OBJECTS_A_TURN == 1 || i < count)                                       \
-                statement                                                               \
-        }
-
+// Drivers unroll them by themselves; made to unroll 400 objects, lavapipe's compiler takes minutes.
 LoopedSphere hoisted_spheres[HOISTED ? SPHERES + 1 : 1];
 PackedPlane hoisted_planes[HOISTED ? PLANES + 1 : 1];
 PackedPointLight hoisted_point_lights[HOISTED ? POINT_LIGHTS + 1 : 1];
@@ -92,37 +79,16 @@ void hoist_scene()
         hoisted_quad_lights[i] = quad_lights[i];
 }
 
-PackedSphere get_sphere(int i)
-{
-    if (HOISTED)
-        return hoisted_spheres[i].sphere;
-    return spheres[i].sphere;
-}
-
-PackedSurface get_surface(int sphere)
-{
-    if (HOISTED)
-        return hoisted_spheres[sphere].surface;
-    return spheres[sphere].surface;
-}
-
-PackedPlane get_plane(int i)
-{
-    if (HOISTED)
-        return hoisted_planes[i];
-    return planes[i];
-}
-
-PackedPointLight get_point_light(int i)
-{
-    if (HOISTED)
-        return hoisted_point_lights[i];
-    return point_lights[i];
-}
-
-PackedQuadLight get_quad_light(int i)
-{
-    if (HOISTED)
-        return hoisted_quad_lights[i];
-    return quad_lights[i];
-}
+// An element of the scene, or a member of one.
+#define SCENE_GETTER(Type, get, name, member) \
+    Type get(int i)                           \
+    {                                         \
+        if (HOISTED)                          \
+            return hoisted_##name[i] member;  \
+        return name[i] member;                \
+    }
+SCENE_GETTER(PackedSphere, get_sphere, spheres, .sphere)
+SCENE_GETTER(PackedSurface, get_surface, spheres, .surface)
+SCENE_GETTER(PackedPlane, get_plane, planes, )
+SCENE_GETTER(PackedPointLight, get_point_light, point_lights, )
+SCENE_GETTER(PackedQuadLight, get_quad_light, quad_lights, )

@@ -43,7 +43,7 @@ real point_irradiance(Matte matte, real3 light, out real3 to_light, inout Tally 
         exact real unshadowed = matte_factor(matte, direction, cos_in) * (inverse * inverse);
         irradiance = faces && lit ? unshadowed : real(0);
     }
-    note_light(distance_squared, distance, cos_in, irradiance);
+    TELL(note_light(distance_squared, distance, cos_in, irradiance);)
     return irradiance;
 }
 
@@ -59,8 +59,7 @@ real quad_point(Matte matte, int i, Sequence sequence, uint first_sample, int k,
     exact real projected_area = dot3(real3(get_quad_light(i).area_normal.xyz), to_light);
     bool lit = irradiance > real(0) && projected_area > real(0);
     note(tally, lit ? 1u : 0u);
-    if (!out_of_steps)
-        emit_light(POINT_LIGHTS + i, k, light, projected_area);
+    TELL(if (!out_of_steps) emit_light(POINT_LIGHTS + i, k, light, projected_area);)
     exact real seen = lit ? irradiance * projected_area : real(0);
     return seen;
 }
@@ -80,8 +79,7 @@ real3 point_light_radiance(Matte matte, int i, inout Tally tally)
     real3 to_light;
     real irradiance = point_irradiance(matte, real3(get_point_light(i).position.xyz), to_light, tally);
     note(tally, irradiance > real(0) ? 1u : 0u);
-    if (!out_of_steps)
-        emit_light(i, 0, real3(get_point_light(i).position.xyz), real(1));
+    TELL(if (!out_of_steps) emit_light(i, 0, real3(get_point_light(i).position.xyz), real(1));)
     exact real3 radiance = irradiance * real3(get_point_light(i).intensity.xyz);
     return radiance;
 }
@@ -91,10 +89,11 @@ real3 direct_light(Matte matte, uint sample_index, uint seed, inout Tally tally)
 {
     exact real3 sum = real3(0);
     if (POINT_LIGHTS > 0) // lavapipe runs the body of an empty loop once, masked
-        FOR_EACH_LIGHT(i, POINT_LIGHTS, sum = sum + point_light_radiance(matte, i, tally);)
+        for (int i = 0; i < POINT_LIGHTS; ++i)
+            sum = sum + point_light_radiance(matte, i, tally);
     if (QUAD_LIGHTS > 0)
-        FOR_EACH_LIGHT(i, QUAD_LIGHTS,
-                       sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), tally);)
+        for (int i = 0; i < QUAD_LIGHTS; ++i)
+            sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), tally);
     return sum;
 }
 

@@ -101,7 +101,7 @@ bool end_path(inout Pixel pixel, inout Lighting light, Path path, Hit hit, real3
         }
     }
     exact real3 leaf = path.weight * seen;
-    emit_leaf(seen, leaf);
+    TELL(emit(EVENT_LEAF, ivec4(0), seen, leaf, real(0));)
     add_leaf(pixel, leaf);
     return false;
 }
@@ -112,7 +112,7 @@ void cut_off(inout Pixel pixel, Path path)
     if (!CHARGED)
         return;
     add_charge(pixel, path.weight);
-    emit_untraced(true, UNTRACED_BOUNCES, path.weight, pixel.charge);
+    TELL(emit_untraced(UNTRACED_BOUNCES, path.weight, pixel.charge);)
 }
 
 // Gives the ray of a mirror or glass hit its next direction; where glass splits it, the reflection is put on the
@@ -131,7 +131,7 @@ bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real
     path.ray.inward = hit.from_inside;
     if (!GLASS || hit.kind != KIND_TRANSPARENT) {
         bool escaping = RAYS_ESCAPE && escapes(path.ray);
-        emit_untraced(escaping, UNTRACED_ESCAPES, path.weight, pixel.charge);
+        TELL(if (escaping) emit_untraced(UNTRACED_ESCAPES, path.weight, pixel.charge);)
         return !escaping;
     }
 
@@ -139,7 +139,7 @@ bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real
     real kappa = real(hit.from_inside ? hit.parameters.KAPPA_EXITING : hit.parameters.KAPPA_ENTERING);
     Refraction refraction = refracted(incident, normal, cos_in, eta, kappa);
     note(pixel.tally, uint(refraction.total));
-    emit_split(cos_in, refraction);
+    TELL(emit_split(cos_in, refraction);)
     if (refraction.total)
         return true;
     exact real reflected_weight = path.weight * refraction.reflectance;
@@ -150,8 +150,8 @@ bool bounce(inout Path path, inout int pending, inout Pixel pixel, Hit hit, real
     exact real waiting = pixel.waiting + reflected_root;
     bool reflects = is_traced(pixel, reflected_weight, reflected_root, open);
     bool refracts = is_traced(pixel, refracted_weight, refracted_root, open);
-    emit_untraced(!reflects, UNTRACED_REFLECTED, reflected_weight, pixel.charge);
-    emit_untraced(!refracts, UNTRACED_REFRACTED, refracted_weight, pixel.charge);
+    TELL(if (!reflects) emit_untraced(UNTRACED_REFLECTED, reflected_weight, pixel.charge);)
+    TELL(if (!refracts) emit_untraced(UNTRACED_REFRACTED, refracted_weight, pixel.charge);)
     path.weight = reflected_weight;
     path.branch = 2u * path.branch + 2u;
     if (refracts) {
@@ -219,7 +219,7 @@ void turn(inout Work work, uvec2 first)
     }
     uvec2 in_tile = place_of(first, work.column);
     uint place = in_tile.y * tile_size.x + in_tile.x;
-    records(in_tile);
+    TELL(records_pixel = in_tile == uvec2(0);)
     if (!work.busy) {
         begin_pixel(work.pixel, tile_origin + in_tile, place);
         work.busy = true;
@@ -235,11 +235,11 @@ void turn(inout Work work, uvec2 first)
     do { // with a hierarchy until the light at a matte point is wanted: looking for what blocks it is dear, also for lanes that wait
         bool ray_is_known = HIERARCHY ? search.stage != SEARCH_FRESH : LIGHTS_TAKE_TURNS && work.light.next > 0u;
         bool hit_is_known = HIERARCHY ? search.stage == SEARCH_DONE : ray_is_known;
-        emit_ray(!ray_is_known, work.pixel.sample_index, work.path);
+        TELL(emit_ray(!ray_is_known, work.pixel.sample_index, work.path))
         trace(work.path, hit, point, normal);
         if (HIERARCHY && search.stage != SEARCH_DONE)
             return;
-        emit_hit(!hit_is_known, hit, point, normal);
+        TELL(if (!hit_is_known) emit_hit(hit, point, normal);)
         if (!hit_is_known)
             note(work.pixel.tally, uint(hit.surface + 1) * 2u + uint(hit.from_inside));
         goes_on = false;
@@ -292,7 +292,7 @@ void main()
     samples_end = SAMPLES_APART ? tile.end_sample : uint(SAMPLES);
     uint most_turns = tile.most_turns;
     bool goes_on = RESUMABLE && tile.goes_on != 0u;
-    begin_events(first_sample == 0u && !goes_on);
+    TELL(if (first_sample == 0u && !goes_on && gl_GlobalInvocationID == uvec3(0)) event_count = 0u;)
     // lavapipe gives each thread groups that lie together: dealt out in turn, all get their share of what is dear
     uint share = gl_NumWorkGroups.y / tile.threads;
     uint group_y = gl_WorkGroupID.y % share * tile.threads + gl_WorkGroupID.y / share;

@@ -52,7 +52,7 @@ function(add_reference_build name)
         foreach(part tracer explain)
             if(NOT "${precision} ${part}" STREQUAL "float explain")
                 list(APPEND compile_all COMMAND ${ARGN} ${compile_reference} -DREFERENCE_BITS=${bits}
-                     -DREFERENCE_RENDER=reference_render_${precision} -DREFERENCE_EXPLAIN=reference_explain_${precision}
+                     -DREFERENCE_TRACE=reference_trace_${precision} -DREFERENCE_EXPLAIN=reference_explain_${precision}
                      ${reference}/${part}.c -o ${folder}/${part}_${precision}.o)
                 list(APPEND objects ${folder}/${part}_${precision}.o)
             endif()

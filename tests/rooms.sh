@@ -17,7 +17,7 @@ image: base
 vulkan: base
 base:
 '
-reference=' reference.h reference_events.h sphere_tree.h packed_scene.h scene_layout.h ' # what cpu_reference/ and shaders/ offer
+reference=' reference.h sphere_tree.h packed_scene.h scene_layout.h ' # what cpu_reference/ and shaders/ offer
 
 declare -A allowed
 while IFS=: read -r room used; do

@@ -36,6 +36,13 @@ static inline struct picture_settings test_settings(const struct scene *scene)
     };
 }
 
+static inline struct packed_scene test_pack(const struct scene *scene, struct picture_settings settings)
+{
+    struct packed_scene packed;
+    assert_int_equal(pack_scene(NULL, scene, &settings, &packed), STATUS_DONE);
+    return packed;
+}
+
 /* name is relative to the source folder. */
 static inline struct scene test_read(const char *name)
 {
@@ -70,9 +77,7 @@ static inline struct rendering test_render(const struct packed_scene *packed, en
 static inline struct rendering test_render_scene(const struct scene *scene, enum test_renderer renderer,
                                                  struct window window)
 {
-    struct packed_scene packed;
-    struct picture_settings settings = test_settings(scene);
-    assert_int_equal(pack_scene(scene, &settings, &packed), STATUS_DONE);
+    struct packed_scene packed = test_pack(scene, test_settings(scene));
     struct rendering rendering = test_render(&packed, renderer, window);
     pack_destroy(&packed);
     return rendering;

@@ -1,18 +1,13 @@
 /* Division and square root as the shaders correct them, on the device, against the processor's, which IEEE
  * 754 has round correctly. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "arithmetic_far.h"
 #include "arithmetic_native.h"

@@ -294,7 +294,7 @@ static enum status deepest(void)
 {
     struct packed_scene packed;
     unsigned most;
-    enum status status = pack_scene(&glass, &glass_picture, &packed);
+    enum status status = pack_scene(NULL, &glass, &glass_picture, &packed);
     if (status != STATUS_DONE)
         return status;
     status = ground_truth_bounces(&packed, &most);

@@ -1,15 +1,10 @@
 /* From a scene file to what finds its many spheres: each part shows a bar where it takes long, the first
  * Ctrl-C ends it at once, and the device's part is small. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <fcntl.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -73,7 +68,7 @@ static bool build_all(const char *path)
     assert_int_equal(scene_read(path, &scene), STATUS_DONE);
     scene_warn(&scene);
     const struct picture_settings settings = test_settings(&scene);
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    packed = test_pack(&scene, settings);
     assert_int_equal(reference_scene(&packed, 2, &reference), STATUS_DONE);
     const uint64_t record_count = sphere_record_count(&packed), word_count = sphere_word_count(&packed);
     uint32_t(*records)[4] = calloc(record_count, sizeof *records);

@@ -97,7 +97,7 @@ static void assert_packs(const struct scene_camera *camera)
     struct packed_scene packed;
     const struct picture_settings settings = {
         .width = 3, .height = 2, .max_bounces = 1, .samples = 1, .light_samples = 1};
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    assert_int_equal(pack_scene(NULL, &scene, &settings, &packed), STATUS_DONE);
     const float *vectors[] = {&packed.view.forward.x, &packed.view.half_pixel_right.x,
                               &packed.view.half_pixel_down.x};
     double half_pixel = tan(camera->fov_y_degrees / 180 * pi / 2) / 2;

@@ -1,13 +1,8 @@
 /* Shaders compiled in the program: the same SPIR-V as the build's, messages that lead to the file and line
  * that is wrong, rules for what may stand in one, and a glslang that may crash. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "cmocka_test.h"
+
 #include <stdio.h>
-
-#include <cmocka.h>
-
 #include <string.h>
 #include <sys/stat.h>
 

@@ -1,13 +1,9 @@
 /* Light samples earn their time: the error falls faster than independent points could make it. */
+#include "cmocka_test.h"
+
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-#include <cmocka.h>
 
 #include "base/statistics.h"
 #include "test_render.h"
@@ -19,11 +15,10 @@ static double *render(enum precision precision, unsigned light_samples)
 {
     struct scene scene = test_read("scenes/figure_2b.yaml");
     struct picture_settings settings = test_settings(&scene);
-    struct packed_scene packed;
     settings.width = WIDTH;
     settings.height = HEIGHT;
     settings.light_samples = light_samples;
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    struct packed_scene packed = test_pack(&scene, settings);
     struct rendering rendering =
         test_render(&packed, precision == PRECISION_DOUBLE ? TEST_DOUBLE : TEST_FLOAT, (struct window){0});
     double *values = malloc(VALUES * sizeof *values);

@@ -1,13 +1,9 @@
 /* What is declared of a shader's arithmetic is what the device offers, and valid. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "cmocka_test.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "test_folder.h"
 #include "tracer/interface.h"

@@ -1,14 +1,9 @@
 /* Spheres that are not looped over: with the tree that the host builds for it, the reference makes the
  * picture that it makes by trying all of them, and tells the same of each pixel. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <glob.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "failing_memory.h"
@@ -18,7 +13,6 @@
 #include "tracer/reference_scene.h"
 
 enum { WIDTH = 36, HEIGHT = 24, PIXELS = WIDTH * HEIGHT, CLOUD = 1500 };
-static const struct reference_window whole = {0, 0, WIDTH, HEIGHT};
 
 static void build_hierarchy(struct packed_scene *packed)
 {
@@ -32,12 +26,10 @@ static void build_hierarchy(struct packed_scene *packed)
 static struct packed_scene pack(const struct scene *scene)
 {
     struct picture_settings settings = test_settings(scene);
-    struct packed_scene packed;
     settings.width = WIDTH;
     settings.height = HEIGHT;
     settings.light_samples = 2;
-    assert_int_equal(pack_scene(scene, &settings, &packed), STATUS_DONE);
-    return packed;
+    return test_pack(scene, settings);
 }
 
 static struct render_plan plan_of(const struct packed_scene *packed)
@@ -47,39 +39,40 @@ static struct render_plan plan_of(const struct packed_scene *packed)
 
 static void check_picture(const char *name, const struct packed_scene *packed)
 {
-    double rgb[3 * PIXELS];
-    uint32_t expected[PIXELS], *signatures;
-    struct reference_picture picture = {.rgb = rgb, .signatures = expected};
+    uint32_t *signatures;
     struct render_plan plan = plan_of(packed);
     struct rendering rendering;
-    reference_render_float(packed, whole, 2, &picture);
+    struct reference_rays rays = {0};
     assert_int_equal(signatures_on_cpu(&plan, &signatures), STATUS_DONE);
-    assert_memory_equal(signatures, expected, sizeof expected);
-    free(signatures);
-    picture.rays = (struct reference_rays){0};
-    reference_render_double(packed, whole, 2, &picture);
     plan.precision = PRECISION_DOUBLE;
     assert_int_equal(render_on_cpu(&plan, &rendering), STATUS_DONE);
-    if (memcmp(rendering.image.rgb64, rgb, sizeof rgb) != 0)
-        fail_msg("%s: the tree makes another picture", name);
-    assert_memory_equal(&rendering.rays, &picture.rays, sizeof picture.rays);
+    for (int i = 0; i < PIXELS; ++i) {
+        const int x = i % WIDTH, y = i / WIDTH;
+        const struct reference_pixel expected = reference_trace_double(packed, x, y, NULL);
+        if (memcmp(rendering.image.rgb64 + 3 * i, expected.rgb, sizeof expected.rgb) != 0 ||
+            signatures[i] != reference_trace_float(packed, x, y, NULL).signature)
+            fail_msg("%s: the tree makes another picture", name);
+        rays_add(&rays, expected.rays);
+    }
+    assert_memory_equal(&rendering.rays, &rays, sizeof rays);
+    free(signatures);
     image_destroy(&rendering.image);
 }
 
 /* Where a margin is at least 1, it may be larger with the tree. */
 static void check_explanations(const char *name, const struct packed_scene *packed)
 {
-    static struct reference_explanation expected[PIXELS];
     struct reference_explanation *explanations;
     struct render_plan plan = plan_of(packed);
-    reference_explain_double(packed, whole, 2, expected);
     assert_int_equal(explain_on_cpu(&plan, PRECISION_DOUBLE, &explanations), STATUS_DONE);
     for (int i = 0; i < PIXELS; ++i) {
-        if (expected[i].margin >= 1 && explanations[i].margin >= expected[i].margin)
-            explanations[i].margin = expected[i].margin;
-        if (memcmp(&explanations[i], &expected[i], sizeof expected[i]) != 0)
+        const struct reference_explanation expected =
+            reference_explain_double(packed, i % WIDTH, i / WIDTH, NULL);
+        if (expected.margin >= 1 && explanations[i].margin >= expected.margin)
+            explanations[i].margin = expected.margin;
+        if (memcmp(&explanations[i], &expected, sizeof expected) != 0)
             fail_msg("%s, pixel %d: margin %.9g, not %.9g, or more is different", name, i,
-                     explanations[i].margin, expected[i].margin);
+                     explanations[i].margin, expected.margin);
     }
     free(explanations);
 }
@@ -92,7 +85,7 @@ static void check_events(const char *name, const struct packed_scene *packed)
         struct reference_log log = {.events = events, .room = sizeof events / sizeof *events};
         struct ray_tree tree;
         plan.window = (struct window){(unsigned)(i % WIDTH), (unsigned)(i / WIDTH), 1, 1};
-        reference_record_float(packed, i % WIDTH, i / WIDTH, &log);
+        reference_trace_float(packed, i % WIDTH, i / WIDTH, &log);
         assert_int_equal(ray_tree_on_cpu(&plan, PRECISION_FLOAT, &tree), STATUS_DONE);
         assert_int_equal(tree.count + tree.beyond, log.count);
         size_t kept = log.count < log.room ? log.count : log.room;
@@ -195,13 +188,13 @@ static void tree_where_needed(void **state)
     struct picture_settings settings = test_settings(&scene);
     struct packed_scene packed, moved, other, first, second;
     (void)state;
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    packed = test_pack(&scene, settings);
     scene.camera.fov_y_degrees /= 2;
     scene.background[0] = 0.25;
-    assert_int_equal(pack_scene_beside(&packed, &scene, &settings, &moved), STATUS_DONE);
+    assert_int_equal(pack_scene(&packed, &scene, &settings, &moved), STATUS_DONE);
     assert_true(moved.hierarchy == packed.hierarchy && packed.hierarchy->owners == 2);
     scene.objects[0].spheres.rows[7][3] *= 1.5F;
-    assert_int_equal(pack_scene_beside(&packed, &scene, &settings, &other), STATUS_DONE);
+    assert_int_equal(pack_scene(&packed, &scene, &settings, &other), STATUS_DONE);
     assert_ptr_not_equal(other.hierarchy, packed.hierarchy);
     assert_int_equal(reference_scene(&packed, 1, &first), STATUS_DONE);
     assert_non_null(first.tree);

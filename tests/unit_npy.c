@@ -1,13 +1,8 @@
 /* Spheres from a NumPy file: what is read of each kind of array, and what is said of other files. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <sys/stat.h>
 
 #include "npy_file.h"
@@ -116,7 +111,7 @@ static void check_refused(const char *message)
 
 #define DTYPE "its dtype must be float32 or float64, is "
 #define SHAPE "its shape must be (N, 4): x, y, z, radius, is "
-#define WRONG "its NumPy header is wrong: "
+#define WRONG "its NumPy header must be a dictionary of 'descr', 'fortran_order' and 'shape'"
 
 /* Headers before the bytes of five rows of float32. */
 static void wrong_headers(void **state)
@@ -140,24 +135,19 @@ static void wrong_headers(void **state)
          SHAPE "(99999999999999999999, 4)"},
         {"{'descr': '<f4', 'fortran_order': False, 'shape': (16000001, 4), }",
          "has 16000001 rows; a scene may have 16000000 spheres in all"},
-        {"{'descr': '<f4', 'fortran_order': False, 'shape': (-5, 4), }",
-         WRONG "'shape' must have whole numbers"},
-        {"{'descr': '<f4', 'fortran_order': False, 'shape': 5, }", WRONG "'shape' must be a tuple"},
-        {"{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4", WRONG "'shape' must be a tuple"},
-        {"{'descr': '<f4', 'fortran_order': 0, 'shape': (5, 4), }",
-         WRONG "'fortran_order' must be True or False"},
-        {"{'descr': <f4, 'fortran_order': False, 'shape': (5, 4), }", WRONG "'descr' must be a text"},
-        {"{'descr': '<f4', 'fortran_order': False, }",
-         WRONG "it must have 'descr', 'fortran_order' and 'shape'"},
-        {"{'descr': '<f4', 'descr': '<f4', 'shape': (5, 4), }", WRONG "a key is given twice"},
-        {"{'descr': '<f4', 'order': False, 'shape': (5, 4), }",
-         WRONG "the keys are 'descr', 'fortran_order' and 'shape'"},
-        {"{'descr': '<f4' 'fortran_order': False, 'shape': (5, 4), }", WRONG "a comma is missing"},
-        {"{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4), } x",
-         WRONG "something follows the dictionary"},
-        {"[1, 2]", WRONG "it must be a dictionary"},
-        {"", WRONG "it must be a dictionary"},
-        {"{'descr", WRONG "it must be a dictionary"},
+        {"{'descr': '<f4', 'fortran_order': False, 'shape': (-5, 4), }", SHAPE "(-5, 4)"},
+        {"{'descr': '<f4', 'fortran_order': False, 'shape': 5, }", WRONG},
+        {"{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4", WRONG},
+        {"{'descr': '<f4', 'fortran_order': 0, 'shape': (5, 4), }", WRONG},
+        {"{'descr': <f4, 'fortran_order': False, 'shape': (5, 4), }", WRONG},
+        {"{'descr': '<f4', 'fortran_order': False, }", WRONG},
+        {"{'descr': '<f4', 'descr': '<f4', 'shape': (5, 4), }", WRONG},
+        {"{'descr': '<f4', 'order': False, 'shape': (5, 4), }", WRONG},
+        {"{'descr': '<f4' 'fortran_order': False, 'shape': (5, 4), }", WRONG},
+        {"{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4), } x", WRONG},
+        {"[1, 2]", WRONG},
+        {"", WRONG},
+        {"{'descr", WRONG},
         {"{'descr': '<f4', 'fortran_order': False, 'shape': (4, 4), }",
          "is longer than its header says: 16 bytes behind row 3 of 4"},
         {"{'descr': '<f4', 'fortran_order': False, 'shape': (0, 4), }",

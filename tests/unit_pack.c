@@ -1,13 +1,8 @@
 /* The packed scene: what is settled once for device and reference. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "scene/scene.h"
 #include "scene/vector.h"
@@ -27,7 +22,7 @@ static enum status try_pack(const char *text, struct packed_scene *packed)
     struct scene scene;
     assert_int_equal(scene_read_text("test.yaml", text, strlen(text), &scene), STATUS_DONE);
     struct picture_settings settings = test_settings(&scene);
-    enum status status = pack_scene(&scene, &settings, packed);
+    enum status status = pack_scene(NULL, &scene, &settings, packed);
     scene_destroy(&scene);
     return status;
 }
@@ -103,9 +98,9 @@ static void scaling_by_powers_of_two(void **state)
             struct packed_scene packed, scaled;
             struct scene scene = test_read(names[i]);
             struct picture_settings settings = test_settings(&scene);
-            assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+            packed = test_pack(&scene, settings);
             scale_scene(&scene, ldexp(1, exponents[k]));
-            assert_int_equal(pack_scene(&scene, &settings, &scaled), STATUS_DONE);
+            scaled = test_pack(&scene, settings);
             check_same(&packed, &scaled);
             scene_destroy(&scene);
             pack_destroy(&packed);
@@ -319,12 +314,12 @@ static void directions_of_any_length(void **state)
     struct scene scene = test_read("scenes/figure_2b.yaml");
     struct picture_settings settings = test_settings(&scene);
     struct packed_scene usual, packed;
-    assert_int_equal(pack_scene(&scene, &settings, &usual), STATUS_DONE);
+    usual = test_pack(&scene, settings);
     scale_lengths(scene.camera.up, 0x1p-1074);
     for (size_t i = 0; i < scene.object_count; ++i)
         if (scene.objects[i].type == OBJECT_PLANE)
             scale_lengths(scene.objects[i].plane.normal, 0x1p-1074);
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    packed = test_pack(&scene, settings);
     check_same(&usual, &packed);
     scene_destroy(&scene);
     pack_destroy(&usual);

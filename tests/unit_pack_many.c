@@ -1,14 +1,9 @@
 /* The packed scene of many spheres: which are looped over, in which order the others are, what they share,
  * and that their tags are those that comparing all with all finds. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/interrupt.h"
@@ -44,7 +39,6 @@ static void fill_rows(size_t count, float radius)
 
 static struct packed_scene pack(const char *objects_and_lights, double max_error)
 {
-    struct packed_scene packed;
     struct scene scene;
     char text[8192];
     snprintf(text, sizeof text, "%s%s", HEAD, objects_and_lights);
@@ -52,7 +46,7 @@ static struct packed_scene pack(const char *objects_and_lights, double max_error
     struct picture_settings settings = test_settings(&scene);
     settings.has_max_error = max_error > 0;
     settings.max_error = max_error;
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    struct packed_scene packed = test_pack(&scene, settings);
     scene_destroy(&scene);
     return packed;
 }
@@ -292,11 +286,11 @@ static void moved_camera(void **state)
         npy_write("matte.npy", 50, rows + 150);
         assert_int_equal(scene_read_text("a.yaml", text, strlen(text), &scene), STATUS_DONE);
         const struct picture_settings settings = test_settings(&scene);
-        assert_int_equal(pack_scene(&scene, &settings, &first), STATUS_DONE);
+        first = test_pack(&scene, settings);
         for (int c = 0; c < 3; ++c) /* to within a sphere, in half of the cases behind the wall */
             scene.camera.position[c] = (double)rows[seed][c] + (c == 2 && seed % 2 ? 30 : 0);
-        assert_int_equal(pack_scene_beside(&first, &scene, &settings, &beside), STATUS_DONE);
-        assert_int_equal(pack_scene(&scene, &settings, &anew), STATUS_DONE);
+        assert_int_equal(pack_scene(&first, &scene, &settings, &beside), STATUS_DONE);
+        anew = test_pack(&scene, settings);
         const int last = first.sphere_count - 1; /* is no giant */
         const bool same_scale = first.spheres[last].center_radius.w == anew.spheres[last].center_radius.w;
         assert_true((beside.hierarchy == first.hierarchy) == same_scale);

@@ -1,15 +1,10 @@
 /* What `pixel` shows is what the picture is made of: on the shipped scenes device and reference
  * tell the same steps, these add up to the picture's pixel, and the analysis bounds the error of each. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <glob.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "pixel/ray_tree.h"
@@ -23,12 +18,11 @@ static struct packed_scene pack(const char *path, unsigned samples)
     struct scene scene;
     assert_int_equal(scene_read(path, &scene), STATUS_DONE);
     struct picture_settings settings = test_settings(&scene);
-    struct packed_scene packed;
     settings.width = WIDTH;
     settings.height = HEIGHT;
     settings.samples = samples;
     settings.light_samples = 3;
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    struct packed_scene packed = test_pack(&scene, settings);
     scene_destroy(&scene);
     return packed;
 }

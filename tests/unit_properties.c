@@ -1,14 +1,9 @@
 /* What must hold exactly, or nearly so, whatever the numbers are: scaling, mirroring, conservation of energy.
  */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "test_render.h"
 

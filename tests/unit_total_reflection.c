@@ -1,13 +1,8 @@
 /* Total internal reflection: tests/scenes/total_reflection.yaml has a closed form, pixel by pixel. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "test_render.h"
 

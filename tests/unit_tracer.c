@@ -1,14 +1,9 @@
 /* The picture's bits depend on the scene alone: not on how the work is cut up, nor where the scene's data
  * lie. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "check/compare.h"
 #include "test_render.h"
@@ -28,10 +23,9 @@ static struct image whole_pictures[SCENES];
 static struct packed_scene pack(const char *name)
 {
     struct scene scene = test_read(name);
-    struct packed_scene packed;
     const struct picture_settings settings = {
         .width = WIDTH, .height = HEIGHT, .max_bounces = 5, .samples = 2, .light_samples = 3};
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    struct packed_scene packed = test_pack(&scene, settings);
     scene_destroy(&scene);
     return packed;
 }
@@ -47,7 +41,9 @@ static struct image trace(const struct packed_scene *packed, struct tracer_optio
     assert_int_equal(tracer_create(test_context, packed, &options, &tracer), STATUS_DONE);
     assert_int_equal(image_create(window.width, window.height, &image), STATUS_DONE);
     memset(image.rgb, 0xff, (size_t)window.width * window.height * 3 * sizeof(float));
-    assert_int_equal(tracer_render(tracer, window, &image, &progress, &times), STATUS_DONE);
+    assert_int_equal(
+        tracer_render(tracer, window, &(struct tracer_values){.image = &image}, &progress, &times),
+        STATUS_DONE);
     assert_true(times.device_ms > 0 && times.dispatch_ms >= times.device_ms);
     assert_int_equal(progress.done, (uint64_t)window.width * window.height);
     tracer_destroy(&tracer);
@@ -100,8 +96,7 @@ static void tile_size(void **state)
     (void)state;
     uint32_t real_limit = test_context->properties.limits.maxStorageBufferRange;
     for (size_t i = 0; i < sizeof tiles / sizeof *tiles; ++i) {
-        test_context->properties.limits.maxStorageBufferRange =
-            tiles[i].pixels * 4 * (uint32_t)sizeof(float);
+        test_context->properties.limits.maxStorageBufferRange = tiles[i].pixels * 4 * (uint32_t)sizeof(float);
         compare_with_whole(tiles[i].window);
     }
     test_context->properties.limits.maxStorageBufferRange = real_limit;
@@ -177,11 +172,10 @@ static void ray_counts_of_one_pixel(void **state)
     enum { SAMPLES = 513, LIGHT_SAMPLES = 32767 };
     (void)state;
     struct scene scene = test_read("scenes/figure_2b.yaml");
-    struct packed_scene packed;
     struct picture_settings settings = test_settings(&scene);
     settings.samples = SAMPLES;
     settings.light_samples = LIGHT_SAMPLES;
-    assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+    struct packed_scene packed = test_pack(&scene, settings);
     scene_destroy(&scene);
     struct render_plan plan = {.scene = &packed, .window = {300, 350, 1, 1}, .quiet = true};
     struct reference_rays rays = {1, 2, 3};

@@ -1,14 +1,9 @@
 /* What --max-error promises, and truncation_bound: no pixel is farther from the picture with 64 bounces. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <glob.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "scene/truncation.h"
@@ -19,12 +14,10 @@ enum { MAX_ERRORS = sizeof max_errors / sizeof *max_errors, ALL_BOUNCES = 64 };
 
 static struct packed_scene pack(const struct scene *scene, struct picture_settings settings)
 {
-    struct packed_scene packed;
     settings.width = 72;
     settings.height = 48;
     settings.light_samples = 4;
-    assert_int_equal(pack_scene(scene, &settings, &packed), STATUS_DONE);
-    return packed;
+    return test_pack(scene, settings);
 }
 
 static struct rendering render(const struct packed_scene *packed, bool on_device)
@@ -178,8 +171,7 @@ static void no_more_than_twice_the_fewest_rays(void **state)
         settings.max_bounces = 200;
         settings.has_max_error = true;
         settings.max_error = cases[i].max_error;
-        struct packed_scene packed;
-        assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+        struct packed_scene packed = test_pack(&scene, settings);
         struct rendering rendering = render(&packed, false);
         uint64_t rays = rendering.rays.primary + rendering.rays.secondary;
         if (rays > 2 * cases[i].fewest)
@@ -302,8 +294,7 @@ static void random_scenes_keep_the_order(void **state)
         settings.width = 12;
         settings.height = 8;
         settings.max_bounces = (unsigned)uniform(3, 11);
-        struct packed_scene all;
-        assert_int_equal(pack_scene(&scene, &settings, &all), STATUS_DONE);
+        struct packed_scene all = test_pack(&scene, settings);
         struct render_plan plan = {
             .window = {0, 0, 12, 8},
             .precision = PRECISION_DOUBLE,
@@ -315,10 +306,9 @@ static void random_scenes_keep_the_order(void **state)
         plan.scene = &all;
         assert_int_equal(render_on_cpu(&plan, &expected), STATUS_DONE);
         for (double max_error = 1; max_error > 1e-6; max_error *= 0.1) {
-            struct packed_scene packed;
             settings.has_max_error = true;
             settings.max_error = max_error;
-            assert_int_equal(pack_scene(&scene, &settings, &packed), STATUS_DONE);
+            struct packed_scene packed = test_pack(&scene, settings);
             plan.scene = &packed;
             assert_int_equal(render_on_cpu(&plan, &got), STATUS_DONE);
             for (size_t i = 0; i < 12 * 8; ++i) {

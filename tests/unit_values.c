@@ -1,13 +1,8 @@
 /* Pictures against numbers that were found without this program. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "test_render.h"
 

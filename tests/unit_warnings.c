@@ -1,13 +1,8 @@
 /* What scene_warn() says of a scene, and of which scenes it says nothing. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "cmocka_test.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -148,7 +143,7 @@ static void many_spheres(void **state)
 {
     (void)state;
     enum { SIDE = 30, COUNT = 2 * SIDE * SIDE * SIDE };
-    struct scene scene = {.path = "a.yaml", .material_count = 1, .object_count = COUNT};
+    struct scene scene = {.path = "a.yaml", .material_count = 1, .object_count = COUNT, .body_count = COUNT};
     scene.materials = calloc(1, sizeof *scene.materials);
     scene.objects = calloc(COUNT, sizeof *scene.objects);
     assert_true(scene.materials && scene.objects);
@@ -159,6 +154,7 @@ static void many_spheres(void **state)
             .name = i == COUNT - 1 ? "Last" : "Other",
             .type = OBJECT_SPHERE,
             .sphere = {{cell % SIDE, cell / SIDE % SIDE, cell / SIDE / SIDE}, i % 2 ? 0.25 : 0.5},
+            .first = (size_t)i,
             .place = {i, 1},
         };
     }
@@ -212,7 +208,7 @@ static void dense_cloud(void **state)
     struct scene_material glass = {.type = MATERIAL_TRANSPARENT};
     struct scene_object object = {
         .name = "Cloud", .type = OBJECT_SPHERES, .spheres = {rows, COUNT}, .place = {3, 1}};
-    struct scene scene = {.path = "a.yaml", .material_count = 1, .materials = &glass};
+    struct scene scene = {.path = "a.yaml", .material_count = 1, .materials = &glass, .body_count = COUNT};
     scene.object_count = 1;
     scene.objects = &object;
     clock_t start = clock();

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/statistics.h"
 #include "image/srgb.h"
@@ -25,14 +26,13 @@ struct pixel_grid pixel_grid_fitting(unsigned width, unsigned height, double mos
 static struct reference_rays render_pixel(const struct packed_scene *scene, enum precision precision,
                                           size_t pixel, const struct grid_pixels *pixels)
 {
-    static void (*const renderers[])(const struct packed_scene *, struct reference_window, int,
-                                     struct reference_picture *) = {
-        reference_render_float, reference_render_double, reference_render_quad};
+    static reference_tracer *const tracers[] = {reference_trace_float, reference_trace_double,
+                                                reference_trace_quad};
     const int place = (int)pixel_grid_place(&pixels->grid, pixel, (unsigned)scene->width);
-    const struct reference_window window = {place % scene->width, place / scene->width, 1, 1};
-    struct reference_picture picture = {.rgb = &pixels->rgb[3 * pixel]};
-    renderers[precision](scene, window, 1, &picture);
-    return picture.rays;
+    const struct reference_pixel traced =
+        tracers[precision](scene, place % scene->width, place / scene->width, NULL);
+    memcpy(&pixels->rgb[3 * pixel], traced.rgb, sizeof traced.rgb);
+    return traced.rays;
 }
 
 /* Renders the pixels of pixels->grid. Without a share, progress may be NULL. */
@@ -157,7 +157,7 @@ enum status ground_truth_create(const struct scene *scene, const struct packed_s
     } else {
         snprintf(what, sizeof what, "quad (binary128) with %u bounces", settings.max_bounces);
     }
-    enum status status = pack_scene_beside(other, scene, &settings, &packed);
+    enum status status = pack_scene(other, scene, &settings, &packed);
     if (status != STATUS_DONE)
         return status;
     status = render_within(&packed, kind == TRUTH_EXACT ? PRECISION_QUAD : PRECISION_DOUBLE, work, progress,

@@ -12,7 +12,7 @@ static enum status run_point(struct bench_point *point, struct image *image, dou
         struct progress unseen;
         progress_start(&unseen, "", 1, true);
         struct tracer_times times;
-        enum status traced = tracer_render(point->tracer, point->plan.window, image, &unseen, &times);
+        enum status traced = render_once_on_device(point->tracer, &point->plan, image, &unseen, &times);
         *milliseconds = times.dispatch_ms;
         return traced;
     }
@@ -49,7 +49,7 @@ static enum status start_point(struct bench *bench, struct bench_point *point)
         status = image_widen(&bench->image);
     double start = clock_ms();
     if (status == STATUS_DONE)
-        status = pack_scene_beside(&bench->job.packed, &bench->job.scene, picture, &point->packed);
+        status = pack_scene(&bench->job.packed, &bench->job.scene, picture, &point->packed);
     if (status == STATUS_DONE && on_device)
         status = tracer_create(bench->options->context, &point->packed,
                                &(struct tracer_options){.double_precision = is_double,

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "reference_events.h"
+#include "reference.h"
 #include "scene/body.h"
 #include "scene/pack.h"
 #include "tracer/reference_scene.h"
@@ -26,27 +26,20 @@ struct off_pixel {
     double distance;
 };
 
-static bool is_off(const struct packed_scene *scene, int x, int y)
-{
-    double in_float[3], exact[3];
-    struct reference_picture picture = {.rgb = in_float}, exact_picture = {.rgb = exact};
-    const struct reference_window pixel = {x, y, 1, 1};
-    bool off = false;
-    reference_render_float(scene, pixel, 1, &picture);
-    reference_render_double(scene, pixel, 1, &exact_picture);
-    for (int c = 0; c < 3; ++c)
-        off |= !(fabs(in_float[c] - exact[c]) < off_by * fmax(fabs(exact[c]), darkest));
-    return off;
-}
-
-static struct off_pixel look_at(const struct packed_scene *scene, int x, int y)
+/* Whether the pixel is off; what it shows. */
+static bool is_off(const struct packed_scene *scene, int x, int y, struct off_pixel *shown)
 {
     struct reference_event events[2]; /* the primary ray and its hit */
     struct reference_log log = {.events = events, .room = 2};
-    reference_record_double(scene, x, y, &log);
-    if (log.count < 2 || events[1].head.place.EVENT_KIND != EVENT_HIT)
-        return (struct off_pixel){.surface = -1};
-    return (struct off_pixel){events[1].head.facts.EVENT_SURFACE, events[1].values[6]};
+    const struct reference_pixel in_float = reference_trace_float(scene, x, y, NULL),
+                                 exact = reference_trace_double(scene, x, y, &log);
+    bool off = false;
+    for (int c = 0; c < 3; ++c)
+        off |= !(fabs(in_float.rgb[c] - exact.rgb[c]) < off_by * fmax(fabs(exact.rgb[c]), darkest));
+    const bool hits = log.count >= 2 && events[1].head.place.EVENT_KIND == EVENT_HIT;
+    *shown = (struct off_pixel){.surface = hits ? events[1].head.facts.EVENT_SURFACE : -1,
+                                .distance = hits ? events[1].values[6] : 0};
+    return off;
 }
 
 /* The number of pixels that are off, among those looked at. */
@@ -56,8 +49,7 @@ static size_t find_off_pixels(const struct packed_scene *scene, struct off_pixel
     for (int i = 0; i < SIDE * SIDE; ++i) {
         const int x = (int)((2 * (i % SIDE) + 1) * (int64_t)scene->width / (2 * SIDE));
         const int y = (int)((2 * (i / SIDE) + 1) * (int64_t)scene->height / (2 * SIDE));
-        if (is_off(scene, x, y))
-            off[count++] = look_at(scene, x, y);
+        count += is_off(scene, x, y, &off[count]);
     }
     return count;
 }
@@ -79,16 +71,6 @@ static struct off_pixel most_frequent(const struct off_pixel *off, size_t count)
     return found;
 }
 
-/* The object with the body of that place in the file, and its row. */
-static const struct scene_object *find_object(const struct scene *scene, size_t order, size_t *row)
-{
-    const struct scene_object *object = scene->objects;
-    for (; order >= object_body_count(object); ++object)
-        order -= object_body_count(object);
-    *row = order;
-    return object;
-}
-
 static void warn(const struct job *job, struct off_pixel off, double share)
 {
     static const char *const types[] = {
@@ -97,21 +79,20 @@ static void warn(const struct job *job, struct off_pixel off, double share)
     const double distance = off.distance / pack_scale(scene),
                  coordinates = dvec3_largest(dvec3_of(scene->camera.position));
     const bool far_out = coordinates > FAR_OUT * distance;
-    char row[32] = "", size[32] = "", why[96];
-    size_t number;
-    const struct scene_object *object =
-        find_object(scene, (size_t)body_file_order(&job->packed, off.surface), &number);
-    const struct body body = body_of(object, number);
-    if (object->type == OBJECT_SPHERES)
-        snprintf(row, sizeof row, " row %zu", number);
+    char name[BODY_NAME], size[32] = "", why[96];
+    const size_t number = (size_t)body_file_order(&job->packed, off.surface);
+    const struct body_place place = body_find(scene, number);
+    const struct scene_object *object = place.object;
+    const struct body body = body_numbered(scene, number);
     if (body.is_ball)
         snprintf(size, sizeof size, "radius %.3g m, ", body.number);
     snprintf(why, sizeof why, far_out ? "seen from %.3g m, at coordinates of %.3g m" : "seen from %.3g m",
              distance, coordinates);
-    log_warning("%s:%d:%d: %s \"%s\"%s: %s%s: shading is off by 1 %% or more in %.0f %% of the pixels "
+    log_warning("%s:%d:%d: %s %s: %s%s: shading is off by 1 %% or more in %.0f %% of the pixels "
                 "looked at; %suse --precision double",
-                scene->path, object->place.line, object->place.column, types[object->type], object->name, row,
-                size, why, 100 * share, far_out ? "move the scene to the origin of coordinates, or " : "");
+                scene->path, object->place.line, object->place.column, types[object->type],
+                body_name(place, name), size, why, 100 * share,
+                far_out ? "move the scene to the origin of coordinates, or " : "");
 }
 
 enum status float_limit_warn(const struct job *job)

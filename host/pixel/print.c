@@ -306,7 +306,7 @@ static void print_light_samples(struct walk *walk)
 void pixel_print_verdict(const struct pixel_trace *trace)
 {
     const struct event_difference *difference = &trace->difference;
-    const double *picture = trace->picture, *reference = trace->reference_picture;
+    const double *picture = trace->picture;
     printf("%s: pixel (%u, %u): ", trace->job->scene.path, trace->job->plan.window.x,
            trace->job->plan.window.y);
     if (difference->differs)
@@ -318,8 +318,8 @@ void pixel_print_verdict(const struct pixel_trace *trace)
         printf("not recorded: %zu more steps of the device, %zu of the reference\n", trace->device.beyond,
                trace->reference.beyond);
     if (!trace->is_the_pictures)
-        printf("the picture has %.9g %.9g %.9g here, the reference's %.9g %.9g %.9g: not what was recorded\n",
-               picture[0], picture[1], picture[2], reference[0], reference[1], reference[2]);
+        printf("the picture has %.9g %.9g %.9g here: not what was recorded\n", picture[0], picture[1],
+               picture[2]);
 }
 
 void pixel_print(const struct pixel_trace *trace, bool all_light_samples)

@@ -54,8 +54,8 @@ enum status ray_tree_on_device(struct vulkan_context *context, const struct rend
     if (status == STATUS_DONE)
         status = tracer_create(context, plan->scene, &options, &tracer);
     if (status == STATUS_DONE)
-        status = tracer_render(tracer, (struct window){plan->window.x, plan->window.y, 1, 1}, &image, &unseen,
-                               &unused);
+        status = tracer_render(tracer, (struct window){plan->window.x, plan->window.y, 1, 1},
+                               &(struct tracer_values){.image = &image}, &unseen, &unused);
     if (status == STATUS_DONE)
         status = allocate(tree, tracer_events(tracer, &events), kept);
     if (status == STATUS_DONE)
@@ -65,25 +65,34 @@ enum status ray_tree_on_device(struct vulkan_context *context, const struct rend
     return status;
 }
 
+/* Traces the pixel, in the plan's precision or with the error analysis. */
+static void trace(const struct render_plan *plan, const struct packed_scene *scene, enum precision against,
+                  struct reference_log *log)
+{
+    const int x = (int)plan->window.x, y = (int)plan->window.y;
+    if (against == PRECISION_QUAD)
+        reference_explain_quad(scene, x, y, log);
+    else if (against == PRECISION_DOUBLE)
+        reference_explain_double(scene, x, y, log);
+    else if (plan->precision == PRECISION_DOUBLE)
+        reference_trace_double(scene, x, y, log);
+    else
+        reference_trace_float(scene, x, y, log);
+}
+
 enum status ray_tree_on_cpu(const struct render_plan *plan, enum precision against, struct ray_tree *tree)
 {
-    void (*const trace)(const struct packed_scene *scene, int x, int y, struct reference_log *log) =
-        against == PRECISION_QUAD             ? reference_analyse_quad
-        : against == PRECISION_DOUBLE         ? reference_analyse_double
-        : plan->precision == PRECISION_DOUBLE ? reference_record_double
-                                              : reference_record_float;
-    const int x = (int)plan->window.x, y = (int)plan->window.y;
     struct reference_log log = {0};
     struct packed_scene scene;
     *tree = (struct ray_tree){0};
     enum status status = reference_scene(plan->scene, plan->threads, &scene);
     if (status != STATUS_DONE)
         return status;
-    trace(&scene, x, y, &log); /* counts */
+    trace(plan, &scene, against, &log); /* counts */
     status = allocate(tree, log.count, MOST_EVENTS);
     if (status == STATUS_DONE) {
         log = (struct reference_log){.events = tree->events, .room = tree->count};
-        trace(&scene, x, y, &log);
+        trace(plan, &scene, against, &log);
     }
     return status;
 }

@@ -1,7 +1,7 @@
 #ifndef VKWHITTED_PIXEL_RAY_TREE_H
 #define VKWHITTED_PIXEL_RAY_TREE_H
 
-#include "reference_events.h"
+#include "reference.h"
 #include "tracer/render.h"
 
 /* The ray tree of a pixel as one side tells it: its events, in the order of the recursion. */

@@ -65,12 +65,11 @@ static enum status find_steps(struct pixel_trace *trace)
     return STATUS_DONE;
 }
 
-/* The pixel as the picture has it; the reference's without a context. */
+/* The pixel as the picture has it. */
 static enum status render_pixel(struct vulkan_context *context, const struct render_plan *plan, double rgb[3])
 {
     struct rendering rendering;
-    enum status status =
-        context ? render_on_device(context, plan, &rendering) : render_on_cpu(plan, &rendering);
+    enum status status = render_on_device(context, plan, &rendering);
     if (status != STATUS_DONE)
         return status;
     const struct image *image = &rendering.image;
@@ -80,32 +79,17 @@ static enum status render_pixel(struct vulkan_context *context, const struct ren
     return STATUS_DONE;
 }
 
-/* Whether the tree ends in the picture's pixel; what was not recorded cannot tell. */
-static bool ends_in(const struct ray_tree *tree, const double picture[3])
+/* Whether the device's tree ends in the picture's pixel; what was not recorded cannot tell. */
+static bool is_the_pictures(const struct pixel_trace *trace)
 {
+    const struct ray_tree *tree = &trace->device;
     const struct reference_event *last = tree->count > 0 ? &tree->events[tree->count - 1] : NULL;
     if (!last || last->head.place.EVENT_KIND != EVENT_PIXEL)
         return tree->beyond > 0;
+    bool agree = true;
     for (int c = 0; c < 3; ++c)
-        if (!event_values_agree(picture[c], last->values[c]))
-            return false;
-    return true;
-}
-
-static enum status number_objects(struct pixel_trace *trace)
-{
-    const struct scene *scene = &trace->job->scene;
-    int order = 0;
-    trace->first_orders = calloc(scene->object_count + 1, sizeof *trace->first_orders);
-    if (!trace->first_orders) {
-        log_error("no memory for %zu objects", scene->object_count);
-        return STATUS_UNABLE;
-    }
-    for (size_t i = 0; i < scene->object_count; ++i) {
-        trace->first_orders[i] = order;
-        order += (int)object_body_count(&scene->objects[i]);
-    }
-    return STATUS_DONE;
+        agree = agree && event_values_agree(trace->picture[c], last->values[c]);
+    return agree;
 }
 
 enum status pixel_trace_create(struct vulkan_context *context, const struct job *job, enum precision against,
@@ -114,9 +98,7 @@ enum status pixel_trace_create(struct vulkan_context *context, const struct job 
     const struct render_plan *plan = &job->plan;
     *trace = (struct pixel_trace){
         .job = job, .context = context, .against = against, .scale = pack_scale(&job->scene)};
-    enum status status = number_objects(trace);
-    if (status == STATUS_DONE)
-        status = ray_tree_on_cpu(plan, PRECISION_FLOAT, &trace->reference);
+    enum status status = ray_tree_on_cpu(plan, PRECISION_FLOAT, &trace->reference);
     if (status == STATUS_DONE && against != PRECISION_FLOAT)
         status = ray_tree_on_cpu(plan, against, &trace->exact);
     if (status == STATUS_DONE)
@@ -125,12 +107,9 @@ enum status pixel_trace_create(struct vulkan_context *context, const struct job 
     if (status == STATUS_DONE)
         status = render_pixel(context, plan, trace->picture);
     if (status == STATUS_DONE)
-        status = render_pixel(NULL, plan, trace->reference_picture);
-    if (status == STATUS_DONE)
         status = find_steps(trace);
     trace->difference = ray_trees_compare(&trace->device, &trace->reference);
-    trace->is_the_pictures =
-        ends_in(&trace->device, trace->picture) && ends_in(&trace->reference, trace->reference_picture);
+    trace->is_the_pictures = is_the_pictures(trace);
     if (status != STATUS_DONE)
         pixel_trace_destroy(trace);
     return status;
@@ -142,38 +121,17 @@ void pixel_trace_destroy(struct pixel_trace *trace)
     ray_tree_destroy(&trace->reference);
     ray_tree_destroy(&trace->exact);
     free(trace->steps);
-    free(trace->first_orders);
     *trace = (struct pixel_trace){0};
-}
-
-/* The object whose first body stands there or nearest before it; the last one, as others have none. */
-static size_t find_object(const struct pixel_trace *trace, int file_order)
-{
-    size_t object = 0, behind = trace->job->scene.object_count;
-    while (behind - object > 1) {
-        size_t middle = object + (behind - object) / 2;
-        if (trace->first_orders[middle] <= file_order)
-            object = middle;
-        else
-            behind = middle;
-    }
-    return object;
 }
 
 const char *surface_name(const struct pixel_trace *trace, double surface, char text[static SURFACE_NAME])
 {
     const struct packed_scene *packed = &trace->job->packed;
-    int i = (int)surface, plane = i - packed->sphere_count;
-    if (i < 0 || plane >= packed->plane_count)
+    if (surface < 0 || surface >= body_count(packed))
         return "nothing";
-    int file_order =
-        plane < 0 ? packed->spheres[i].tags.FILE_ORDER : packed->planes[plane].surface.tags.FILE_ORDER;
-    const size_t place = find_object(trace, file_order);
-    const struct scene_object *object = &trace->job->scene.objects[place];
-    if (object->type != OBJECT_SPHERES)
-        return object->name;
-    snprintf(text, SURFACE_NAME, "\"%s\" row %d", object->name, file_order - trace->first_orders[place]);
-    return text;
+    const struct body_place place =
+        body_find(&trace->job->scene, (size_t)body_file_order(packed, (int)surface));
+    return place.object->type == OBJECT_SPHERES ? body_name(place, text) : place.object->name;
 }
 
 const char *difference_bits(const struct pixel_trace *trace, const struct ray_tree *side,

@@ -3,6 +3,7 @@
 
 #include "base/json.h"
 #include "pixel/ray_tree.h"
+#include "scene/body.h"
 #include "tracer/job.h"
 
 /* A step of the ray tree, as each side tells it; NULL where that side has no such step. */
@@ -16,13 +17,12 @@ struct pixel_trace {
     const struct vulkan_context *context;
     enum precision against;                   /* PRECISION_FLOAT where there is no analysis */
     double scale;                             /* scene units in a metre */
-    int *first_orders;                        /* of each object: the place of its first body in the file */
     struct ray_tree device, reference, exact; /* exact: the analysis */
     struct step
         *steps; /* the device's in their order, then the reference's, empty where the device has them */
     size_t step_count;
-    double picture[3], reference_picture[3]; /* the pixel as rendered without recording */
-    bool is_the_pictures;                    /* what was recorded ends in the same bits as these */
+    double picture[3];    /* the pixel as the device renders it without recording */
+    bool is_the_pictures; /* what was recorded ends in the same bits as that */
     struct event_difference difference;
 };
 
@@ -33,7 +33,7 @@ enum status pixel_trace_create(struct vulkan_context *context, const struct job 
                                struct pixel_trace *trace);
 void pixel_trace_destroy(struct pixel_trace *trace);
 
-enum { SURFACE_NAME = 600 };
+enum { SURFACE_NAME = BODY_NAME };
 
 /* The name of an object by the number of its surface; "nothing" below 0. Of a sphere from a file, which is
  * written to text: "Flake" row 17, where rows count from 0. */

@@ -20,23 +20,20 @@ struct body {
     bool is_giant; /* stored as such in the packed scene, in whose units it is; see giant.h */
 };
 
-/* A row of a file with spheres is a body of its own. */
-static inline size_t object_body_count(const struct scene_object *object)
-{
-    return object->type == OBJECT_SPHERES ? object->spheres.count : 1;
-}
+/* Where a body stands in the scene: an object, or a row of a file with spheres. */
+struct body_place {
+    const struct scene_object *object;
+    size_t row;
+};
 
-static inline struct body body_of(const struct scene_object *object, size_t row)
-{
-    if (object->type == OBJECT_SPHERES) {
-        const float *at = object->spheres.rows[row];
-        return (struct body){true, {(double)at[0], (double)at[1], (double)at[2]}, (double)at[3], false};
-    }
-    if (object->type == OBJECT_SPHERE)
-        return (struct body){true, dvec3_of(object->sphere.center), object->sphere.radius, false};
-    struct dvec3 normal = dvec3_unit(dvec3_of(object->plane.normal));
-    return (struct body){false, normal, dvec3_dot(normal, dvec3_of(object->plane.point)), false};
-}
+/* The place of the body of that number, and the body. */
+struct body_place body_find(const struct scene *scene, size_t number);
+struct body body_numbered(const struct scene *scene, size_t number);
+
+enum { BODY_NAME = 600 }; /* bytes; a name has fewer than 512 */
+
+/* As messages have it, written to text: "Ball", or "Flake" row 17. */
+const char *body_name(struct body_place place, char text[static BODY_NAME]);
 
 /* The packed scene's spheres, then its planes. */
 static inline int body_count(const struct packed_scene *scene)
@@ -48,6 +45,17 @@ static inline const PackedSurface *body_surface(const struct packed_scene *scene
 {
     return i < scene->sphere_count ? &scene->surfaces[scene->spheres[i].tags.SURFACE]
                                    : &scene->planes[i - scene->sphere_count].surface;
+}
+
+/* Each of the surfaces that bodies have: those of spheres, then those of planes. */
+static inline int packed_surface_count(const struct packed_scene *scene)
+{
+    return scene->surface_count + scene->plane_count;
+}
+
+static inline const PackedSurface *packed_surface(const struct packed_scene *scene, int i)
+{
+    return i < scene->surface_count ? &scene->surfaces[i] : &scene->planes[i - scene->surface_count].surface;
 }
 
 /* Its place in the scene file, where each row of a file of spheres counts. */

@@ -96,12 +96,11 @@ void report_print(struct diagnostics *report)
         report_line("%s:%d:%d: error: %s", report->path, error->place.line, error->place.column,
                     error->message ? error->message : "");
         print_line_and_caret(report, error->place);
-        free(error->message);
     }
     if (report->count > REPORT_MAX_ERRORS)
         report_line("%s: error: %zu more errors", report->path, report->count - REPORT_MAX_ERRORS);
     funlockfile(stderr);
-    report->count = 0;
+    report_discard(report);
 }
 
 void report_discard(struct diagnostics *report)

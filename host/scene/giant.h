@@ -24,13 +24,4 @@ static inline double giant_height(struct body giant)
     return giant.number - dvec3_length(giant.vector);
 }
 
-/* As the packed scene has a giant, see scene_layout.h, before it is rounded to float. */
-struct giant_shape {
-    struct dvec3 gradient;
-    double offset, curvature;
-};
-
-/* The giant's lengths are in scene units. */
-struct giant_shape giant_shape_of(struct body giant);
-
 #endif

@@ -3,7 +3,6 @@
 #include <endian.h>
 #include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,20 +24,10 @@ struct reading {
     char *message;
 };
 
-__attribute__((format(printf, 2, 3))) static enum status refuse(char message[NPY_MESSAGE], const char *format,
-                                                                ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, NPY_MESSAGE, format, arguments);
-    va_end(arguments);
-    return STATUS_REFUSED;
-}
-
 static enum status refuse_errno(char message[NPY_MESSAGE])
 {
     const int error = errno;
-    refuse(message, "%s", input_file_problem(error));
+    npy_refuse(message, "%s", input_file_problem(error));
     return input_file_status(error);
 }
 
@@ -66,8 +55,8 @@ static enum status refuse_value(const struct reading *reading, double value)
     const char *rule = !isfinite(value)                           ? "a finite number"
                        : column->bounds->positive && !(value > 0) ? "> 0"
                                                                   : column->bounds->rule;
-    return refuse(reading->message, "row %zu: %s must be %s, is %.9g", reading->row, column->name, rule,
-                  value);
+    return npy_refuse(reading->message, "row %zu: %s must be %s, is %.9g", reading->row, column->name, rule,
+                      value);
 }
 
 /* Takes the values of a piece. */
@@ -98,7 +87,7 @@ static enum status read_values(struct reading *reading)
     struct progress progress;
     progress_start(&progress, "reading spheres", left, false);
     if (!piece || !reading->rows) {
-        snprintf(reading->message, NPY_MESSAGE, "no memory for %zu spheres", reading->header.rows);
+        npy_refuse(reading->message, "no memory for %zu spheres", reading->header.rows);
         status = STATUS_UNABLE;
     }
     while (left > 0 && status == STATUS_DONE) {
@@ -108,7 +97,7 @@ static enum status read_values(struct reading *reading)
         if (got < 0)
             status = refuse_errno(reading->message);
         else if ((size_t)got < size)
-            status = refuse(reading->message, "is truncated: it became shorter while it was read");
+            status = npy_refuse(reading->message, "is truncated: it became shorter while it was read");
         else
             status = take_values(reading, piece, size);
         progress_advance(&progress, size);
@@ -124,11 +113,11 @@ static enum status check_size(const struct npy_header *header, size_t size, char
     size_t row_size = NPY_COLUMNS * header->value_size;
     size_t expected = header->size + header->rows * row_size;
     if (size < expected)
-        return refuse(message, "is truncated: its header says %zu rows, it ends in row %zu", header->rows,
-                      size > header->size ? (size - header->size) / row_size : 0);
+        return npy_refuse(message, "is truncated: its header says %zu rows, it ends in row %zu", header->rows,
+                          size > header->size ? (size - header->size) / row_size : 0);
     if (size > expected)
-        return refuse(message, "is longer than its header says: %zu bytes behind row %zu of %zu",
-                      size - expected, header->rows - (header->rows > 0), header->rows);
+        return npy_refuse(message, "is longer than its header says: %zu bytes behind row %zu of %zu",
+                          size - expected, header->rows - (header->rows > 0), header->rows);
     return STATUS_DONE;
 }
 
@@ -143,8 +132,8 @@ static enum status read_header(struct reading *reading, size_t size, size_t most
         return status;
     const struct npy_header *header = &reading->header;
     if (header->rows > most_rows)
-        return refuse(reading->message, "has %zu rows; a scene may have %d spheres in all", header->rows,
-                      SCENE_MAX_SPHERES);
+        return npy_refuse(reading->message, "has %zu rows; a scene may have %d spheres in all", header->rows,
+                          SCENE_MAX_SPHERES);
     if (lseek(reading->file, (off_t)header->size, SEEK_SET) < 0)
         return refuse_errno(reading->message);
     return check_size(header, size, reading->message);

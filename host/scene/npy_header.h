@@ -12,6 +12,10 @@ enum {
     NPY_MOST_HEADER = 4096 /* bytes; numpy.save() writes 128 for such an array */
 };
 
+/* Writes the message; returns STATUS_REFUSED. */
+__attribute__((format(printf, 2, 3))) enum status npy_refuse(char message[NPY_MESSAGE], const char *format,
+                                                             ...);
+
 /* What stands before the values of an array of shape (rows, 4). */
 struct npy_header {
     size_t size; /* of the header, bytes */

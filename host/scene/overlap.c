@@ -1,23 +1,20 @@
 #include "scene/overlap.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/progress.h"
 #include "scene/body.h"
 #include "scene/pack.h"
 
+enum { MOST_PAIRS = 1000 }; /* that are counted: a dense cloud of n spheres has n^2 / 2 */
 enum { FIRST_BLOCK = 64, MOST_IN_BLOCK = 1 << 16, LEAST_PARALLEL = 4096 }; /* bodies */
 
-/* A transparent object, and the number of its first body among all transparent ones, in the file's order. */
-struct part {
-    const struct scene_object *object;
-    size_t first;
-};
-
+/* The transparent bodies of a scene. */
 struct search {
+    const struct scene *scene;
     double scale; /* from metres to scene units */
-    size_t part_count, body_count, sphere_count, plane_count;
-    struct part *parts;
+    size_t sphere_count, plane_count;
     size_t *planes;               /* their numbers */
     struct PackedSphere *spheres; /* a little larger than they are; FILE_ORDER: their numbers */
     struct hierarchy hierarchy;
@@ -47,28 +44,9 @@ static bool overlap(struct body a, struct body b)
     return coincide || body_reaches_into(other, ball);
 }
 
-static struct scene_body find_body(const struct search *search, size_t number)
-{
-    size_t part = 0, behind = search->part_count;
-    while (behind - part > 1) {
-        size_t middle = part + (behind - part) / 2;
-        if (search->parts[middle].first <= number)
-            part = middle;
-        else
-            behind = middle;
-    }
-    return (struct scene_body){search->parts[part].object, number - search->parts[part].first};
-}
-
-static struct body get_body(const struct search *search, size_t number)
-{
-    const struct scene_body found = find_body(search, number);
-    return body_of(found.object, found.row);
-}
-
 static bool compare(struct query *query, size_t number)
 {
-    if (number < query->number && overlap(get_body(query->search, number), query->body)) {
+    if (number < query->number && overlap(body_numbered(query->search->scene, number), query->body)) {
         query->first = query->pairs == 0 || number < query->first ? number : query->first;
         ++query->pairs;
     }
@@ -93,7 +71,8 @@ static layout_vec4 enlarged(const struct search *search, struct body ball)
 /* Finds up to `most` bodies before this one that it overlaps. */
 static struct query find_partners(const struct search *search, size_t number, size_t most)
 {
-    struct query query = {.search = search, .number = number, .body = get_body(search, number), .most = most};
+    struct query query = {
+        .search = search, .number = number, .body = body_numbered(search->scene, number), .most = most};
     bool more = true;
     for (size_t i = 0; i < search->plane_count && more; ++i)
         more = compare(&query, search->planes[i]);
@@ -109,84 +88,88 @@ static struct query find_partners(const struct search *search, size_t number, si
     return query;
 }
 
-/* Block after block, so that the first pair is known when there are enough. */
-static void find_pairs(const struct search *search, struct overlaps *overlaps)
+static bool is_transparent(const struct scene *scene, size_t number)
 {
+    return scene->materials[body_find(scene, number).object->material].type == MATERIAL_TRANSPARENT;
+}
+
+static void warn(const struct scene *scene, size_t pairs, struct body_place earlier, struct body_place later)
+{
+    char others[64] = "", earlier_name[BODY_NAME], later_name[BODY_NAME];
+    if (pairs > 1)
+        snprintf(others, sizeof others, " (and %s%zu other pair%s)", pairs >= MOST_PAIRS ? "at least " : "",
+                 pairs >= MOST_PAIRS ? MOST_PAIRS - 1 : pairs - 1, pairs > 2 ? "s" : "");
+    log_warning("%s:%d:%d: transparent bodies %s and %s overlap%s, which the model does not cover; a body "
+                "wholly inside another is no mistake, if its ior is relative to that one's (air in glass: "
+                "1/1.5)",
+                scene->path, later.object->place.line, later.object->place.column,
+                body_name(earlier, earlier_name), body_name(later, later_name), others);
+}
+
+/* Block after block, so that the first pair is known when there are enough. */
+static void find_pairs(const struct search *search)
+{
+    const struct scene *scene = search->scene;
     size_t pairs = 0, later = SIZE_MAX;
     struct progress progress;
-    progress_start(&progress, "looking for overlaps", search->body_count, false);
-    for (size_t first = 0, size = FIRST_BLOCK, end; first < search->body_count && pairs < OVERLAP_MOST_PAIRS;
+    progress_start(&progress, "looking for overlaps", scene->body_count, false);
+    for (size_t first = 0, size = FIRST_BLOCK, end; first < scene->body_count && pairs < MOST_PAIRS;
          first = end, size = size < MOST_IN_BLOCK ? 2 * size : size) {
-        end = search->body_count - first < size ? search->body_count : first + size;
+        end = scene->body_count - first < size ? scene->body_count : first + size;
 #pragma omp parallel for reduction(+ : pairs) reduction(min : later) schedule(dynamic, 16)                           \
-    if (search->body_count > LEAST_PARALLEL)
+    if (scene->body_count > LEAST_PARALLEL)
         for (size_t i = first; i < end; ++i) {
-            size_t found = find_partners(search, i, OVERLAP_MOST_PAIRS).pairs;
+            size_t found = is_transparent(scene, i) ? find_partners(search, i, MOST_PAIRS).pairs : 0;
             pairs += found;
             later = found > 0 && i < later ? i : later;
         }
         progress_advance(&progress, end - first);
     }
     progress_end(&progress);
-    if (pairs == 0)
-        return;
-    overlaps->pairs = pairs < OVERLAP_MOST_PAIRS ? pairs : OVERLAP_MOST_PAIRS;
-    overlaps->later = find_body(search, later);
-    overlaps->earlier = find_body(search, find_partners(search, later, SIZE_MAX).first);
+    if (pairs > 0)
+        warn(scene, pairs, body_find(scene, find_partners(search, later, SIZE_MAX).first),
+             body_find(scene, later));
 }
 
-static bool is_transparent(const struct scene *scene, const struct scene_object *object)
+static void collect(struct search *search)
 {
-    return scene->materials[object->material].type == MATERIAL_TRANSPARENT && object_body_count(object) > 0;
-}
-
-static void collect(const struct scene *scene, struct search *search)
-{
-    size_t parts = 0, number = 0, spheres = 0, planes = 0;
-    for (const struct scene_object *object = scene->objects; object < scene->objects + scene->object_count;
-         ++object) {
-        if (!is_transparent(scene, object))
+    size_t spheres = 0, planes = 0;
+    for (size_t i = 0; i < search->scene->body_count; ++i) {
+        const struct body body = body_numbered(search->scene, i);
+        if (!is_transparent(search->scene, i))
             continue;
-        search->parts[parts++] = (struct part){object, number};
-        for (size_t row = 0; row < object_body_count(object); ++row, ++number)
-            if (object->type == OBJECT_PLANE)
-                search->planes[planes++] = number;
-            else
-                search->spheres[spheres++] = (struct PackedSphere){enlarged(search, body_of(object, row)),
-                                                                   {.FILE_ORDER = (int)number}};
+        if (body.is_ball)
+            search->spheres[spheres++] =
+                (struct PackedSphere){enlarged(search, body), {.FILE_ORDER = (int)i}};
+        else
+            search->planes[planes++] = i;
     }
 }
 
-enum status overlaps_find(const struct scene *scene, struct overlaps *overlaps)
+void overlaps_warn(const struct scene *scene)
 {
-    struct search search = {.scale = pack_scale(scene)};
-    *overlaps = (struct overlaps){.pairs = 0};
-    for (size_t i = 0; i < scene->object_count; ++i) {
-        const bool counts = is_transparent(scene, &scene->objects[i]);
-        const size_t bodies = counts ? object_body_count(&scene->objects[i]) : 0;
-        search.part_count += counts;
-        search.body_count += bodies;
-        search.plane_count += counts && scene->objects[i].type == OBJECT_PLANE;
-    }
-    search.sphere_count = search.body_count - search.plane_count;
-    if (search.body_count < 2)
-        return STATUS_DONE;
-    search.parts = calloc(search.part_count, sizeof *search.parts);
+    struct search search = {.scene = scene, .scale = pack_scale(scene)};
+    for (size_t i = 0; i < scene->body_count; ++i)
+        if (is_transparent(scene, i))
+            ++*(body_numbered(scene, i).is_ball ? &search.sphere_count : &search.plane_count);
+    if (search.sphere_count + search.plane_count < 2)
+        return;
     search.planes = calloc(search.plane_count + 1, sizeof *search.planes);
     search.spheres = calloc(search.sphere_count + 1, sizeof *search.spheres);
     enum status status = STATUS_UNABLE;
-    if (search.parts && search.planes && search.spheres) {
-        collect(scene, &search);
+    if (search.planes && search.spheres) {
+        collect(&search);
         status = search.sphere_count == 0
                      ? STATUS_DONE
                      : hierarchy_build(search.spheres, 0, (uint32_t)search.sphere_count, &search.hierarchy);
     } else
-        log_error("%s: no memory to compare %zu transparent bodies", scene->path, search.body_count);
+        log_error("%s: no memory to compare %zu transparent bodies", scene->path,
+                  search.sphere_count + search.plane_count);
     if (status == STATUS_DONE)
-        find_pairs(&search, overlaps);
+        find_pairs(&search);
+    else
+        log_warning("%s: transparent bodies may overlap", scene->path);
     hierarchy_destroy(&search.hierarchy);
-    free(search.parts);
     free(search.planes);
     free(search.spheres);
-    return status;
 }

@@ -3,21 +3,9 @@
 
 #include "scene/scene.h"
 
-enum { OVERLAP_MOST_PAIRS = 1000 }; /* that are counted: a dense cloud of n spheres has n^2 / 2 */
-
-/* A plane or sphere, or a row of a file with spheres. */
-struct scene_body {
-    const struct scene_object *object;
-    size_t row;
-};
-
-struct overlaps {
-    size_t pairs; /* OVERLAP_MOST_PAIRS: so many or more */
-    struct scene_body earlier,
-        later; /* the pair that is complete first in the file; of its partners the first */
-};
-
-/* Finds transparent bodies whose surfaces cross. STATUS_UNABLE (reported) without memory. */
-enum status overlaps_find(const struct scene *scene, struct overlaps *overlaps);
+/* Warns of transparent bodies whose surfaces cross: of the pair that is complete first in the file, of its
+ * partners the first, and of how many pairs more there are. Without memory for that it says that there may be
+ * some. */
+void overlaps_warn(const struct scene *scene);
 
 #endif

@@ -2,7 +2,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,6 +23,11 @@ static const double least_radius = 0x1p-50;
 /* Of the distance from the middle of the image plane to a corner, by that to the camera: its square is
  * finite. */
 static const double widest = 0x1p60;
+
+/* In scene units. A larger ball is stored as one of this radius, with the same surface at the origin: its
+ * horizon, seen from height h, is lower by sqrt(2 h / r) or less, 2^-15.5 radians. Of still larger ones,
+ * doubles would not tell on which side of the surface the camera is. */
+static const double largest_radius = 0x1p32;
 
 struct packing {
     const struct scene *scene;
@@ -63,10 +67,10 @@ static void pack_view(struct packing *packing)
     };
 }
 
-static PackedSurface pack_surface(const struct scene *scene, const struct scene_object *object, int order)
+static PackedSurface pack_surface(const struct scene *scene, const struct scene_object *object, size_t order)
 {
     const struct scene_material *material = &scene->materials[object->material];
-    PackedSurface surface = {.tags.FILE_ORDER = order};
+    PackedSurface surface = {.tags.FILE_ORDER = (int)order};
     double sigma_squared = material->roughness * material->roughness, ior = material->ior;
     switch (material->type) {
     case MATERIAL_MATTE:
@@ -104,12 +108,21 @@ static bool hides(const struct packed_scene *packed, int i, bool is_ball, layout
            first.y == shape.y && first.z == shape.z && first.w == shape.w;
 }
 
+/* See scene_layout.h; the giant's lengths are in scene units. */
+static layout_vec4 pack_giant(struct body giant, PackedSurface *surface)
+{
+    const double height = giant_height(giant), curvature = 1 / fmin(giant.number, largest_radius);
+    surface->more_parameters.CURVATURE = to_float(curvature);
+    return to_vec4(dvec3_scale(-(1 - curvature * height), dvec3_unit(giant.vector)),
+                   height * (1 - curvature * height / 2));
+}
+
 /* A plane, or a sphere that is looped over. */
-static void pack_body(struct packing *packing, const struct scene_object *object, size_t row, int order)
+static void pack_body(struct packing *packing, size_t number)
 {
     struct packed_scene *packed = packing->packed;
-    struct body body = body_of(object, row);
-    PackedSurface surface = pack_surface(packing->scene, object, order);
+    struct body body = body_numbered(packing->scene, number);
+    PackedSurface surface = pack_surface(packing->scene, body_find(packing->scene, number).object, number);
     surface.tags.OTHERS_BEFORE = packing->others_before;
     const bool giant = giant_is(packing->scene, body);
     bool turned = !body.is_ball && !is_transparent(&surface) &&
@@ -117,12 +130,7 @@ static void pack_body(struct packing *packing, const struct scene_object *object
     double sign = turned ? -1 : 1;
     body.vector = dvec3_scale(body.is_ball ? packing->scale : sign, body.vector);
     body.number = sign * packing->scale * body.number;
-    layout_vec4 shape = to_vec4(body.vector, body.number);
-    if (giant) {
-        const struct giant_shape giant_shape = giant_shape_of(body);
-        shape = to_vec4(giant_shape.gradient, giant_shape.offset);
-        surface.more_parameters.CURVATURE = to_float(giant_shape.curvature);
-    }
+    const layout_vec4 shape = giant ? pack_giant(body, &surface) : to_vec4(body.vector, body.number);
     for (int i = 0; i < body_count(packed); ++i)
         if (hides(packed, i, body.is_ball, shape, surface.more_parameters.CURVATURE))
             return;
@@ -130,42 +138,26 @@ static void pack_body(struct packing *packing, const struct scene_object *object
     if (body.is_ball) {
         packed->giants |= (unsigned)giant << packed->sphere_count;
         packed->spheres[packed->sphere_count++] =
-            (struct PackedSphere){shape, {.SURFACE = packed->surface_count, .FILE_ORDER = order}};
+            (struct PackedSphere){shape, {.SURFACE = packed->surface_count, .FILE_ORDER = (int)number}};
         packed->surfaces[packed->surface_count++] = surface;
         packed->looped_spheres = packed->sphere_count;
     } else
         packed->planes[packed->plane_count++] = (struct PackedPlane){shape, surface};
 }
 
-static void pack_planes_and_looped(struct packing *packing)
+/* A sphere that is not looped over. */
+static bool is_other(const struct packing *packing, size_t number)
 {
-    const struct scene *scene = packing->scene;
-    size_t sphere = 0;
-    int order = 0;
-    for (size_t i = 0; i < scene->object_count; ++i)
-        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row, ++order)
-            if (scene->objects[i].type == OBJECT_PLANE || is_looped(&packing->looped, sphere++))
-                pack_body(packing, &scene->objects[i], row, order);
-            else
-                ++packing->others_before;
+    return body_numbered(packing->scene, number).is_ball && !is_looped(&packing->looped, number);
 }
 
-/* The other spheres of an object, whose first body has that place in the file; *sphere is its first one's
- * number. */
-static void pack_rows(struct packing *packing, const struct scene_object *object, int order, size_t *sphere)
+static void pack_planes_and_looped(struct packing *packing)
 {
-    struct packed_scene *packed = packing->packed;
-    const int surface = packed->surface_count, before = packed->sphere_count;
-    for (size_t row = 0; row < object_body_count(object); ++row) {
-        if (is_looped(&packing->looped, (*sphere)++))
-            continue;
-        const struct body body = body_of(object, row);
-        packed->spheres[packed->sphere_count++] = (struct PackedSphere){
-            to_vec4(dvec3_scale(packing->scale, body.vector), packing->scale * body.number),
-            {.SURFACE = surface, .FILE_ORDER = order + (int)row}};
-    }
-    if (packed->sphere_count > before)
-        packed->surfaces[packed->surface_count++] = pack_surface(packing->scene, object, order);
+    for (size_t i = 0; i < packing->scene->body_count; ++i)
+        if (is_other(packing, i))
+            ++packing->others_before;
+        else
+            pack_body(packing, i);
 }
 
 /* Whether the spheres that are not looped over are the same. */
@@ -198,16 +190,23 @@ static enum status find_hierarchy(struct packing *packing)
     return status;
 }
 
+/* They share their object's surface. */
 static enum status pack_others(struct packing *packing)
 {
     const struct scene *scene = packing->scene;
     struct packed_scene *packed = packing->packed;
-    size_t sphere = 0;
-    int order = 0;
-    for (size_t i = 0; i < scene->object_count; ++i) {
-        if (scene->objects[i].type != OBJECT_PLANE)
-            pack_rows(packing, &scene->objects[i], order, &sphere);
-        order += (int)object_body_count(&scene->objects[i]);
+    const struct scene_object *object = NULL;
+    for (size_t i = 0; i < scene->body_count; ++i) {
+        if (!is_other(packing, i))
+            continue;
+        const struct body body = body_numbered(scene, i);
+        if (body_find(scene, i).object != object) {
+            object = body_find(scene, i).object;
+            packed->surfaces[packed->surface_count++] = pack_surface(scene, object, object->first);
+        }
+        packed->spheres[packed->sphere_count++] = (struct PackedSphere){
+            to_vec4(dvec3_scale(packing->scale, body.vector), packing->scale * body.number),
+            {.SURFACE = packed->surface_count - 1, .FILE_ORDER = (int)i}};
     }
     return packed->sphere_count == packed->looped_spheres ? STATUS_DONE : find_hierarchy(packing);
 }
@@ -268,28 +267,25 @@ static enum status pack_light(struct packing *packing, const struct scene_light 
 /* The last one's, to be used where all are the same. */
 static void share_roughness(struct packed_scene *packed)
 {
-    for (int i = 0; i < packed->surface_count + packed->plane_count; ++i) {
-        const PackedSurface *surface = i < packed->surface_count
-                                           ? &packed->surfaces[i]
-                                           : &packed->planes[i - packed->surface_count].surface;
+    for (int i = 0; i < packed_surface_count(packed); ++i) {
+        const PackedSurface *surface = packed_surface(packed, i);
         if (surface->tags.SURFACE_KIND == KIND_MATTE)
             packed->view.matte = (layout_vec4){.SHARED_A = surface->parameters.OREN_NAYAR_A,
                                                .SHARED_B = surface->more_parameters.OREN_NAYAR_B};
     }
 }
 
-/* Whether float's exponents suffice for a sphere of the object. */
-static bool is_large_enough(const struct packing *packing, const struct scene_object *object, size_t row)
+/* Whether float's exponents suffice for the body. */
+static bool is_large_enough(const struct packing *packing, size_t number)
 {
-    const struct body body = body_of(object, row);
-    char of_row[32] = "";
+    const struct body_place place = body_find(packing->scene, number);
+    const struct body body = body_numbered(packing->scene, number);
+    char name[BODY_NAME];
     if (!body.is_ball || body.number * packing->scale >= least_radius)
         return true;
-    if (object->type == OBJECT_SPHERES)
-        snprintf(of_row, sizeof of_row, " row %zu", row);
-    log_error("%s:%d:%d: sphere \"%s\"%s: radius must be at least %g of the scene's extent, %.3g, is %g",
-              packing->scene->path, object->place.line, object->place.column, object->name, of_row,
-              least_radius, least_radius / packing->scale, body.number);
+    log_error("%s:%d:%d: sphere %s: radius must be at least %g of the scene's extent, %.3g, is %g",
+              packing->scene->path, place.object->place.line, place.object->place.column,
+              body_name(place, name), least_radius, least_radius / packing->scale, body.number);
     return false;
 }
 
@@ -298,10 +294,9 @@ static enum status check_ranges(const struct packing *packing)
     const struct scene *scene = packing->scene;
     const struct packed_scene *packed = packing->packed;
     const double half = tan(scene->camera.fov_y_degrees / 180 * pi / 2);
-    for (size_t i = 0; i < scene->object_count; ++i)
-        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row)
-            if (!is_large_enough(packing, &scene->objects[i], row))
-                return STATUS_REFUSED;
+    for (size_t i = 0; i < scene->body_count; ++i)
+        if (!is_large_enough(packing, i))
+            return STATUS_REFUSED;
     if (half * (1 + (double)packed->width / packed->height) < widest)
         return STATUS_DONE;
     log_error("%s: fov_y %.17g is too near to 180 degrees for a picture of %dx%d", scene->path,
@@ -337,9 +332,8 @@ static double extent_of(const struct scene *scene, struct body body)
 double pack_scale(const struct scene *scene)
 {
     double extent = dvec3_largest(dvec3_of(scene->camera.position));
-    for (size_t i = 0; i < scene->object_count; ++i)
-        for (size_t row = 0; row < object_body_count(&scene->objects[i]); ++row)
-            extent = fmax(extent, extent_of(scene, body_of(&scene->objects[i], row)));
+    for (size_t i = 0; i < scene->body_count; ++i)
+        extent = fmax(extent, extent_of(scene, body_numbered(scene, i)));
     for (size_t i = 0; i < scene->light_count; ++i) {
         const struct scene_light *light = &scene->lights[i];
         if (light->type == LIGHT_POINT)
@@ -354,14 +348,8 @@ double pack_scale(const struct scene *scene)
     return ldexp(1, -exponent);
 }
 
-enum status pack_scene(const struct scene *scene, const struct picture_settings *settings,
-                       struct packed_scene *packed)
-{
-    return pack_scene_beside(NULL, scene, settings, packed);
-}
-
-enum status pack_scene_beside(const struct packed_scene *other, const struct scene *scene,
-                              const struct picture_settings *settings, struct packed_scene *packed)
+enum status pack_scene(const struct packed_scene *other, const struct scene *scene,
+                       const struct picture_settings *settings, struct packed_scene *packed)
 {
     const struct looped looped = looped_choose(scene);
     *packed = (struct packed_scene){

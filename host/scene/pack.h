@@ -17,14 +17,10 @@ struct picture_settings {
  * once, for both, what is certain of it: which side of an opaque plane the camera is on, what can shadow,
  * what can hold a ray's origin or a light, which spheres are looped over. On STATUS_DONE the caller frees
  * *packed with pack_destroy(); otherwise it is empty: STATUS_REFUSED (reported) for a light too bright, a
- * sphere too small or a field of view too wide for float's exponents, STATUS_UNABLE without memory. */
-enum status pack_scene(const struct scene *scene, const struct picture_settings *settings,
-                       struct packed_scene *packed);
-
-/* The same; where the other packed scene has the same spheres, its hierarchy is shared, not built again. It
- * may be NULL. */
-enum status pack_scene_beside(const struct packed_scene *other, const struct scene *scene,
-                              const struct picture_settings *settings, struct packed_scene *packed);
+ * sphere too small or a field of view too wide for float's exponents, STATUS_UNABLE without memory. Where the
+ * other packed scene, or NULL, has the same spheres, its hierarchy is shared, not built again. */
+enum status pack_scene(const struct packed_scene *other, const struct scene *scene,
+                       const struct picture_settings *settings, struct packed_scene *packed);
 void pack_destroy(struct packed_scene *packed);
 
 /* Scene units in a metre, a power of two. */

@@ -187,11 +187,13 @@ static void find_material(struct reading *reading, struct mapping *mapping, stru
         schema_expect(mapping, &value, "material", "the name of a material");
 }
 
-static void count_spheres(struct reading *reading, struct mapping *mapping, const struct scene_object *object)
+static void count_bodies(struct reading *reading, struct mapping *mapping, struct scene_object *object)
 {
-    size_t count = object->type == OBJECT_PLANE     ? 0
-                   : object->type == OBJECT_SPHERES ? object->spheres.count
-                                                    : 1;
+    const size_t count = object->type == OBJECT_SPHERES ? object->spheres.count : 1;
+    object->first = reading->scene->body_count;
+    reading->scene->body_count += count;
+    if (object->type == OBJECT_PLANE)
+        return;
     if (reading->sphere_count + count > SCENE_MAX_SPHERES)
         schema_refuse(mapping, mapping->value.written, "is one sphere too many: a scene may have %d",
                       SCENE_MAX_SPHERES);
@@ -209,7 +211,7 @@ static void read_object(struct reading *reading, const struct yaml_value *value,
     object->place = yaml_place(reading->report, value->written);
     if (mapping.type == OBJECT_SPHERES)
         spheres_file_read(&mapping, row_columns, SCENE_MAX_SPHERES - reading->sphere_count, object);
-    count_spheres(reading, &mapping, object);
+    count_bodies(reading, &mapping, object);
     if (mapping.good && object->type == OBJECT_PLANE && dvec3_largest(dvec3_of(object->plane.normal)) == 0)
         schema_refuse(&mapping, schema_find(&mapping, "normal").written, "normal must not be zero");
 }

@@ -29,6 +29,7 @@ struct scene_object {
     char *name;
     enum object_type type;
     size_t material; /* index into scene.materials */
+    size_t first;    /* the number of its first body */
     union {
         struct {
             double center[3], radius;
@@ -73,6 +74,7 @@ struct scene {
     double background[3];
     unsigned max_bounces, light_samples;
     size_t material_count, object_count, light_count;
+    size_t body_count; /* bodies are objects, and rows of a file with spheres, in the order of the file */
     struct scene_material *materials;
     struct scene_object *objects;
     struct scene_light *lights;

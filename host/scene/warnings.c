@@ -1,56 +1,21 @@
-#include <stdio.h>
-
 #include "scene/body.h"
 #include "scene/overlap.h"
-
-enum { BODY_NAME = 600 }; /* bytes; a name has fewer than 512 */
-
-/* As messages have it: "Ball", or "Flake" row 17. */
-static const char *name_body(struct scene_body body, char text[BODY_NAME])
-{
-    int length = snprintf(text, BODY_NAME, "\"%s\"", body.object->name);
-    if (body.object->type == OBJECT_SPHERES)
-        snprintf(text + length, (size_t)(BODY_NAME - length), " row %zu", body.row);
-    return text;
-}
-
-static void warn_of_overlaps(const struct scene *scene)
-{
-    struct overlaps overlaps;
-    char others[64] = "", earlier[BODY_NAME], later[BODY_NAME];
-    enum status status = overlaps_find(scene, &overlaps);
-    if (status == STATUS_UNABLE)
-        log_warning("%s: transparent bodies may overlap", scene->path);
-    if (status != STATUS_DONE || overlaps.pairs == 0)
-        return;
-    if (overlaps.pairs > 1)
-        snprintf(others, sizeof others, " (and %s%zu other pair%s)",
-                 overlaps.pairs == OVERLAP_MOST_PAIRS ? "at least " : "", overlaps.pairs - 1,
-                 overlaps.pairs > 2 ? "s" : "");
-    log_warning("%s:%d:%d: transparent bodies %s and %s overlap%s, which the model does not cover; a body "
-                "wholly inside another is no mistake, if its ior is relative to that one's (air in glass: "
-                "1/1.5)",
-                scene->path, overlaps.later.object->place.line, overlaps.later.object->place.column,
-                name_body(overlaps.earlier, earlier), name_body(overlaps.later, later), others);
-}
 
 /* Whether the light shines on some point of a matte object; turned: with u and v swapped. */
 static bool shines_on_any(const struct scene *scene, const struct scene_light *light, bool turned)
 {
     struct dvec3 back = dvec3_unit(dvec3_cross(dvec3_of(light->quad.u), dvec3_of(light->quad.v)));
     struct dvec3 axis = dvec3_scale(turned ? 1 : -1, back);
-    for (size_t i = 0; i < scene->object_count; ++i) {
-        const struct scene_object *object = &scene->objects[i];
-        const bool matte = scene->materials[object->material].type == MATERIAL_MATTE;
-        for (size_t row = 0; matte && row < object_body_count(object); ++row) {
-            const struct body body = body_of(object, row);
-            struct dvec3 point = body.is_ball ? body.vector : dvec3_scale(body.number, body.vector);
-            double reach = body.is_ball ? body.number : 0;
-            if (!body.is_ball && dvec3_length(dvec3_cross(axis, body.vector)) > RESOLUTION)
-                reach = INFINITY;
-            if (dvec3_dot(axis, dvec3_subtract(point, dvec3_of(light->quad.corner))) + reach > 0)
-                return true;
-        }
+    for (size_t i = 0; i < scene->body_count; ++i) {
+        const struct body body = body_numbered(scene, i);
+        if (scene->materials[body_find(scene, i).object->material].type != MATERIAL_MATTE)
+            continue;
+        struct dvec3 point = body.is_ball ? body.vector : dvec3_scale(body.number, body.vector);
+        double reach = body.is_ball ? body.number : 0;
+        if (!body.is_ball && dvec3_length(dvec3_cross(axis, body.vector)) > RESOLUTION)
+            reach = INFINITY;
+        if (dvec3_dot(axis, dvec3_subtract(point, dvec3_of(light->quad.corner))) + reach > 0)
+            return true;
     }
     return false;
 }
@@ -71,6 +36,6 @@ static void warn_of_lights(const struct scene *scene)
 
 void scene_warn(const struct scene *scene)
 {
-    warn_of_overlaps(scene);
+    overlaps_warn(scene);
     warn_of_lights(scene);
 }

@@ -4,10 +4,10 @@
 #include "scene/truncation.h"
 #include "tracer/render.h"
 
-static enum status render_once_on_device(void *renderer, const struct render_plan *plan, struct image *image,
-                                         struct progress *progress, struct tracer_times *times)
+enum status render_once_on_device(void *renderer, const struct render_plan *plan, struct image *image,
+                                  struct progress *progress, struct tracer_times *times)
 {
-    return tracer_render(renderer, plan->window, image, progress, times);
+    return tracer_render(renderer, plan->window, &(struct tracer_values){.image = image}, progress, times);
 }
 
 static enum status create_tracer(struct vulkan_context *context, const struct render_plan *plan, int output,
@@ -34,20 +34,15 @@ static enum status render_output(struct vulkan_context *context, const struct re
     struct tracer *tracer;
     struct progress progress;
     struct tracer_times unused;
-    struct reference_rays sum = {0};
     progress_start(&progress, tasks[output],
                    (uint64_t)plan->window.width * plan->window.height * (uint64_t)plan->scene->samples,
                    plan->quiet);
     enum status status = create_tracer(context, plan, output, &tracer);
     for (unsigned y = 0; y < plan->window.height && status == STATUS_DONE;) {
         const struct window strip = window_strip(plan->window, plan->strips, y);
-        status = tracer_render_values(tracer, strip, values, &progress, &unused);
+        status = tracer_render(tracer, strip, values, &progress, &unused);
         y += strip.height;
-        if (values->rays)
-            rays_add(&sum, *values->rays);
     }
-    if (values->rays)
-        *values->rays = sum;
     progress_end(&progress);
     tracer_destroy(&tracer);
     return status;
@@ -56,11 +51,7 @@ static enum status render_output(struct vulkan_context *context, const struct re
 enum status rays_on_device(struct vulkan_context *context, const struct render_plan *plan,
                            struct reference_rays *rays)
 {
-    struct reference_rays traced;
-    enum status status = render_output(context, plan, OUTPUT_RAYS, &(struct tracer_values){.rays = &traced});
-    if (status == STATUS_DONE)
-        rays_add(rays, traced);
-    return status;
+    return render_output(context, plan, OUTPUT_RAYS, &(struct tracer_values){.rays = rays});
 }
 
 enum status signatures_on_device(struct vulkan_context *context, const struct render_plan *plan,

@@ -15,24 +15,17 @@ static size_t pixel_size(const struct dispatcher *dispatcher)
     return CHANNELS * (dispatcher->value_type == VALUE_DOUBLE ? sizeof(double) : sizeof(float));
 }
 
-static uint32_t binding_count(const struct dispatcher_info *info)
+struct specialization dispatcher_specialization(const struct dispatcher *dispatcher,
+                                                const struct packed_scene *scene)
 {
-    return info->options.event_room > 0 ? BINDINGS : EVENTS;
+    return specialize(dispatcher->context, scene, &dispatcher->size, &dispatcher->options);
 }
 
-enum status dispatcher_create(const struct dispatcher_info *info, struct dispatcher *dispatcher)
+static enum status create_pass(struct dispatcher *dispatcher)
 {
-    const struct shader_choice choice = info->choice;
-    const int output = info->options.output;
-    *dispatcher = (struct dispatcher){
-        .info = info,
-        .size = dispatch_size_choose(info->context, info->scene, value_size(&info->options)),
-        .value_type = output == OUTPUT_RAYS || output == OUTPUT_SIGNATURE ? VALUE_UINT32
-                      : info->options.double_precision                    ? VALUE_DOUBLE
-                                                                          : VALUE_FLOAT,
-    };
-    const struct specialization specialization =
-        specialize(info->context, info->scene, &dispatcher->size, &info->options);
+    const struct shader_choice choice = dispatcher->choice;
+    const struct tracer_options *options = &dispatcher->options;
+    const struct specialization specialization = dispatcher_specialization(dispatcher, dispatcher->scene);
     struct pass_constant constants[CONSTANTS];
     for (uint32_t i = 0; i < CONSTANTS; ++i)
         constants[i] = (struct pass_constant){i, ((const uint32_t *)&specialization)[i]};
@@ -41,16 +34,16 @@ enum status dispatcher_create(const struct dispatcher_info *info, struct dispatc
         bindings[i] = binding_type(i, choice.scene_in_storage);
     double start = clock_ms();
     enum status status = vulkan_pass_create(
-        info->context,
+        dispatcher->context,
         &(struct pass_info){
             .name = "whitted.comp",
-            .code = info->options.code.words ? info->options.code
-                                             : whitted_spirv(choice.variant, choice.scene_in_storage),
-            .fast = info->options.fast,
+            .code =
+                options->code.words ? options->code : whitted_spirv(choice.variant, choice.scene_in_storage),
+            .fast = options->fast,
             .constants = constants,
             .constant_count = CONSTANTS,
             .bindings = bindings,
-            .binding_count = binding_count(info),
+            .binding_count = options->event_room > 0 ? BINDINGS : EVENTS,
             .push_constant_size = sizeof(struct portion),
         },
         &dispatcher->pass);
@@ -58,9 +51,21 @@ enum status dispatcher_create(const struct dispatcher_info *info, struct dispatc
     return status;
 }
 
+enum status dispatcher_create(struct dispatcher *dispatcher)
+{
+    const struct tracer_options *options = &dispatcher->options;
+    const bool counts = options->output == OUTPUT_RAYS || options->output == OUTPUT_SIGNATURE;
+    dispatcher->size = dispatch_size_choose(dispatcher->context, dispatcher->scene, value_size(options));
+    dispatcher->value_type = counts ? VALUE_UINT32 : options->double_precision ? VALUE_DOUBLE : VALUE_FLOAT;
+    enum status status = scene_buffer_create(dispatcher->context, dispatcher->scene,
+                                             dispatcher->choice.scene_in_storage, &dispatcher->scene_buffer);
+    return status == STATUS_DONE ? create_pass(dispatcher) : status;
+}
+
 void dispatcher_destroy(struct dispatcher *dispatcher)
 {
     vulkan_pass_destroy(&dispatcher->pass);
+    scene_buffer_destroy(dispatcher->context, &dispatcher->scene_buffer);
     *dispatcher = (struct dispatcher){0};
 }
 
@@ -99,34 +104,33 @@ static enum status create_buffers(const struct dispatcher *dispatcher, uint32_t 
         [OUTCOME] = {"outcome", BUFFER_READBACK},
         [EVENTS] = {"events", BUFFER_READBACK},
     };
-    const struct dispatcher_info *info = dispatcher->info;
     const struct dispatch_size *size = &dispatcher->size;
     const uint32_t groups = groups_y(size, tile_height); /* and an excess, see dealt_threads() */
     const VkDeviceSize invocations = (VkDeviceSize)groups_x(size, tile_width) * size->group_width *
                                      (groups + groups / 64) * size->group_height;
-    const VkDeviceSize doubled = value_size(&info->options) / sizeof(float);
+    const VkDeviceSize doubled = value_size(&dispatcher->options) / sizeof(float);
     const VkDeviceSize picture_bytes = (VkDeviceSize)tile_width * tile_height * pixel_size(dispatcher);
-    const size_t event_bytes = sizeof(struct EventHead) + EVENT_VALUES * value_size(&info->options);
+    const size_t event_bytes = sizeof(struct EventHead) + EVENT_VALUES * value_size(&dispatcher->options);
     const VkDeviceSize bytes[BINDINGS] = {
         [PICTURE] = picture_bytes,
         [SAVED_REALS] = invocations * size->saved_reals * SAVED_REAL_BYTES * doubled,
         [SAVED_WORDS] = invocations * size->saved_words * sizeof(uint32_t),
         [OUTCOME] = size->resumable ? sizeof(uint32_t) : 0,
-        [EVENTS] = info->options.event_room > 0
-                       ? sizeof(struct event_block) + info->options.event_room * event_bytes
+        [EVENTS] = dispatcher->options.event_room > 0
+                       ? sizeof(struct event_block) + dispatcher->options.event_room * event_bytes
                        : 0,
     };
     enum status status = STATUS_DONE;
     for (int i = PICTURE; i < BINDINGS && status == STATUS_DONE; ++i)
         if (bytes[i] > 0)
-            status = vulkan_buffer_create(info->context, kinds[i].name, bytes[i], kinds[i].memory,
+            status = vulkan_buffer_create(dispatcher->context, kinds[i].name, bytes[i], kinds[i].memory,
                                           &frame->buffers[i]);
     if (status == STATUS_DONE && !frame->buffers[PICTURE].mapped)
-        status = vulkan_buffer_create(info->context, "tile for the host", picture_bytes, BUFFER_READBACK,
-                                      &frame->staging);
-    if (status == STATUS_DONE && info->options.event_room > 0)
+        status = vulkan_buffer_create(dispatcher->context, "tile for the host", picture_bytes,
+                                      BUFFER_READBACK, &frame->staging);
+    if (status == STATUS_DONE && dispatcher->options.event_room > 0)
         *(struct event_block *)frame->buffers[EVENTS].mapped =
-            (struct event_block){.room = info->options.event_room};
+            (struct event_block){.room = dispatcher->options.event_room};
     frame->values = frame->staging.buffer ? frame->staging.mapped : frame->buffers[PICTURE].mapped;
     return status;
 }
@@ -134,18 +138,17 @@ static enum status create_buffers(const struct dispatcher *dispatcher, uint32_t 
 enum status dispatch_frame_create(const struct dispatcher *dispatcher, uint32_t tile_width,
                                   uint32_t tile_height, struct dispatch_frame *frame)
 {
-    const struct dispatcher_info *info = dispatcher->info;
     *frame = (struct dispatch_frame){0};
     enum status status = create_buffers(dispatcher, tile_width, tile_height, frame);
     VkDescriptorBufferInfo memory[BINDINGS];
     for (uint32_t i = 0; i < BINDINGS; ++i) {
         /* the buffers that the pipeline does not use need something in their places */
         const struct vulkan_buffer *buffer = &frame->buffers[frame->buffers[i].buffer ? i : PICTURE];
-        memory[i] = i < SCENE_BINDINGS ? info->scene_buffer.parts[i]
+        memory[i] = i < SCENE_BINDINGS ? dispatcher->scene_buffer.parts[i]
                                        : (VkDescriptorBufferInfo){buffer->buffer, 0, VK_WHOLE_SIZE};
     }
     if (status == STATUS_DONE)
-        status = pass_frame_create(&dispatcher->pass, memory, info->scene_buffer.texels, &frame->frame);
+        status = pass_frame_create(&dispatcher->pass, memory, dispatcher->scene_buffer.texels, &frame->frame);
     if (status != STATUS_DONE)
         dispatch_frame_destroy(dispatcher, frame);
     return status;
@@ -156,9 +159,9 @@ void dispatch_frame_destroy(const struct dispatcher *dispatcher, struct dispatch
     pass_frame_destroy(&frame->frame);
     for (int i = PICTURE; i < BINDINGS; ++i)
         if (frame->buffers[i].buffer)
-            vulkan_buffer_destroy(dispatcher->info->context, &frame->buffers[i]);
+            vulkan_buffer_destroy(dispatcher->context, &frame->buffers[i]);
     if (frame->staging.buffer)
-        vulkan_buffer_destroy(dispatcher->info->context, &frame->staging);
+        vulkan_buffer_destroy(dispatcher->context, &frame->staging);
     *frame = (struct dispatch_frame){0};
 }
 

@@ -32,15 +32,6 @@ enum { CHANNELS = 4 };
  * are counted, integers: secondary rays, shadow rays, path signature. */
 enum value_type { VALUE_FLOAT, VALUE_DOUBLE, VALUE_UINT32 };
 
-/* What all dispatchers of a tracer have in common. */
-struct dispatcher_info {
-    struct vulkan_context *context;
-    const struct packed_scene *scene;
-    struct tracer_options options;
-    struct shader_choice choice;
-    struct scene_buffer scene_buffer;
-};
-
 /* A dispatch: samples of a tile. As TileBlock in whitted.comp. */
 struct portion {
     uint32_t tile_x, tile_y, tile_width, tile_height, picture_width, picture_height; /* pixels */
@@ -61,7 +52,11 @@ struct dispatch_frame {
 
 /* Renders tiles of a picture with one pipeline. */
 struct dispatcher {
-    const struct dispatcher_info *info;
+    struct vulkan_context *context;
+    const struct packed_scene *scene;
+    struct tracer_options options;
+    struct shader_choice choice;
+    struct scene_buffer scene_buffer;
     struct dispatch_size size;
     enum value_type value_type;
     struct vulkan_pass pass;
@@ -72,11 +67,16 @@ struct event_block {
     uint32_t count, room, unused[2];
 };
 
-/* Builds the pipeline; info must outlive the dispatcher. On failure (reported) *dispatcher is empty. */
-enum status dispatcher_create(const struct dispatcher_info *info, struct dispatcher *dispatcher);
+/* Uploads the scene and builds the pipeline; context, scene, options and choice are set. Failures are
+ * reported. */
+enum status dispatcher_create(struct dispatcher *dispatcher);
 
-/* Destroys it, or nothing. */
+/* Destroys what there is of it. */
 void dispatcher_destroy(struct dispatcher *dispatcher);
+
+/* What the scene would need of the dispatcher's pipeline. */
+struct specialization dispatcher_specialization(const struct dispatcher *dispatcher,
+                                                const struct packed_scene *scene);
 
 /* Makes the buffers for tiles of up to so many pixels. On failure (reported) *frame is empty. */
 enum status dispatch_frame_create(const struct dispatcher *dispatcher, uint32_t tile_width,

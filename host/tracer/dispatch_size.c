@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include "scene/body.h"
+
 /* Turns of loops, those over objects and lights included, that an invocation may make with primary rays, and
  * again with the others. Lavapipe ends all loops of an invocation after 65535 turns, without a word; a
  * graphics card's watchdog bites after some seconds. */
@@ -22,10 +24,8 @@ static uint64_t smaller(uint64_t a, uint64_t b)
 static bool has_kind(const struct packed_scene *scene, int kind)
 {
     bool found = false;
-    for (int i = 0; i < scene->surface_count; ++i)
-        found = found || scene->surfaces[i].tags.SURFACE_KIND == kind;
-    for (int i = 0; i < scene->plane_count; ++i)
-        found = found || scene->planes[i].surface.tags.SURFACE_KIND == kind;
+    for (int i = 0; i < packed_surface_count(scene); ++i)
+        found = found || packed_surface(scene, i)->tags.SURFACE_KIND == kind;
     return found;
 }
 
@@ -59,21 +59,22 @@ static void choose_steps(const struct vulkan_context *context, struct dispatch_s
     size->columns = size->on_processor ? 4 : 1;
 }
 
-/* Loops may be unrolled or not: all their turns are counted. */
+/* Loops may be unrolled or not: all their turns are counted. A scene file has 18,000 planes at most, so that
+ * one turn of the loop over rays, twice over all objects and once more where rays escape, is fewer than
+ * 65535. */
 static void choose_turns(const struct packed_scene *scene, bool primary_first, struct dispatch_size *size)
 {
     const uint64_t objects = (uint64_t)(scene->looped_spheres + scene->plane_count);
     const uint64_t points = (uint64_t)scene->point_light_count +
                             (uint64_t)scene->quad_light_count * (uint64_t)scene->light_samples;
-    size->objects_a_turn = (uint32_t)(1 + objects / (MOST_TURNS / 2));
-    const uint64_t over_objects = 2 + objects / size->objects_a_turn;
+    const uint64_t over_objects = 2 + objects;
     const uint64_t ray = 1 + (scene->view.between_mirrors.w != 0 ? 2 : 1) * over_objects;
     const uint64_t point = 2 + over_objects;
     const uint64_t points_a_turn = ray + points * point <= MOST_TURNS
                                        ? at_least_1(points)
                                        : at_least_1((MOST_TURNS - smaller(ray, MOST_TURNS)) / point);
     const uint64_t turn = ray + points_a_turn * point;
-    size->primary_rays_first = primary_first && points_a_turn >= points;
+    size->primary_rays_first = primary_first && ray + points * point <= MOST_TURNS;
     size->light_points_a_turn = (uint32_t)points_a_turn;
     size->most_turns = (uint32_t)at_least_1(MOST_TURNS / turn);
     size->columns = (uint32_t)at_least_1(smaller(size->columns, MOST_TURNS / turn));

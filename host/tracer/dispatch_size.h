@@ -12,7 +12,6 @@ struct dispatch_size {
     uint32_t threads;                   /* that share a dispatch */
     uint32_t samples;                   /* at most, of each pixel */
     uint32_t light_points_a_turn;       /* of the loop over rays */
-    uint32_t objects_a_turn;            /* of a loop over objects */
     bool primary_rays_first;            /* before the loop over rays */
     uint32_t most_turns;                /* of the loop over rays */
     uint32_t most_steps;                /* of searches in the hierarchy; 0: there is none */

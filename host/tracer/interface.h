@@ -25,7 +25,13 @@ enum {
 };
 
 /* What the binding is: a uniform, storage or storage texel buffer. */
-VkDescriptorType binding_type(uint32_t binding, bool scene_in_storage);
+static inline VkDescriptorType binding_type(uint32_t binding, bool scene_in_storage)
+{
+    if (binding == RECORDS || binding == RECORD_WORDS)
+        return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+    return binding >= SURFACES || (binding != VIEW && scene_in_storage) ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                                                        : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+}
 
 enum whitted_variant {
     WHITTED_EXACT,

@@ -48,7 +48,7 @@ enum status job_create_from(const struct job_options *options, const struct pack
     if (status == STATUS_DONE)
         status = choose_tile(options, job);
     if (status == STATUS_DONE)
-        status = pack_scene_beside(other, scene, &settings, &job->packed);
+        status = pack_scene(other, scene, &settings, &job->packed);
     if (status != STATUS_DONE)
         job_destroy(job);
     return status;

@@ -30,7 +30,7 @@ struct job {
 enum status job_create(const struct job_options *options, const char *scene_path, struct job *job);
 
 /* The same for a scene that has been read: the job takes it over, and *scene is empty then. other: another
- * job's packed scene, see pack_scene_beside(); or NULL. */
+ * job's packed scene, see pack_scene(); or NULL. */
 enum status job_create_from(const struct job_options *options, const struct packed_scene *other,
                             struct scene *scene, struct job *job);
 void job_destroy(struct job *job);

@@ -1,131 +1,74 @@
 #include <stdlib.h>
 #include <string.h>
-#include <sys/param.h>
 
 #include "base/clock.h"
 #include "scene/truncation.h"
 #include "tracer/reference_scene.h"
 #include "tracer/render.h"
 
-/* At most so many rows of the plan's window, from its row y on. */
-static struct reference_window band_of(const struct render_plan *plan, unsigned y, unsigned height)
-{
-    const struct window *window = &plan->window;
-    return (struct reference_window){
-        .x = (int)window->x,
-        .y = (int)(window->y + y),
-        .width = (int)window->width,
-        .height = (int)(window->height - y < height ? window->height - y : height),
-    };
-}
-
-static void copy_row(const struct render_plan *plan, struct reference_window part, int row,
-                     const struct reference_picture *picture, struct image *image)
-{
-    const size_t from = (size_t)row * (size_t)part.width, pixels = (size_t)part.width;
-    const size_t to =
-        (size_t)(part.y + row - (int)plan->window.y) * image->width + (size_t)(part.x - (int)plan->window.x);
-    for (size_t i = 0; i < 3 * pixels; ++i)
-        image->rgb[3 * to + i] = (float)picture->rgb[3 * from + i];
-    if (image->rgb64)
-        memcpy(image->rgb64 + 3 * to, picture->rgb + 3 * from, 3 * pixels * sizeof *picture->rgb);
-    for (size_t i = 0; image->truncation && i < pixels; ++i)
-        image->truncation[to + i] = (float)truncation_bound(plan->scene, picture->charges[from + i]);
-}
-
-/* Parts of a window, from left to right and from top to bottom, that each take about as long: so that
- * progress is seen. */
-struct parts {
-    struct reference_window part;
-    int width, height; /* of the next one */
-    int least_height, most_pixels;
+enum {
+    PIXELS_AT_ONCE = 16,    /* that a thread takes */
+    RAYS_BETWEEN = 1 << 17, /* that a thread traces before it tells; some 50 ms */
 };
 
-/* So few pixels that it does not take long, by what is known. */
-static struct parts choose_first(const struct render_plan *plan, int threads)
+static void put_pixel(const struct packed_scene *scene, const struct reference_pixel *pixel, size_t place,
+                      const struct tracer_values *values)
 {
-    const struct packed_scene *scene = plan->scene;
-    const int width = (int)plan->window.width;
-    const double of_pixel = scene->samples * (1 + (double)scene->light_samples * scene->quad_light_count);
-    const int pixels = of_pixel < 16384 ? (int)(16384 / of_pixel) : 1;
-    const int rows = pixels / width / threads * threads;
-    return (struct parts){
-        .width = rows > 0 ? width : MIN(width, pixels / threads + 1),
-        .height = rows > 0 ? rows : threads,
-        .least_height = threads,
-        .most_pixels = 65536 + threads * width,
-    };
+    struct image *image = values->image;
+    if (values->signatures)
+        values->signatures[place] = pixel->signature;
+    for (size_t c = 0; image && c < 3; ++c)
+        image->rgb[3 * place + c] = (float)pixel->rgb[c];
+    if (image && image->rgb64)
+        memcpy(image->rgb64 + 3 * place, pixel->rgb, sizeof pixel->rgb);
+    if (image && image->truncation)
+        image->truncation[place] = (float)truncation_bound(scene, pixel->charges);
 }
 
-/* Few parts, as threads wait for each other at the end of each. */
-static void choose_next(struct parts *parts, double took_ms, int window_width)
+/* Adds what a thread has traced since it last told. */
+static void tell(struct reference_rays *traced, struct reference_rays *sum, struct progress *progress)
 {
-    static const double goal_ms = 100;
-    const int growth = took_ms < goal_ms / 16 ? 8 : took_ms < goal_ms / 2 ? 2 : 1;
-    const int most_rows = parts->most_pixels / window_width / parts->least_height * parts->least_height;
-    if (growth > 1 && parts->width < window_width)
-        parts->width = MIN(growth * parts->width, window_width);
-    else if (growth > 1)
-        parts->height = MIN(growth * parts->height, most_rows);
-    else if (took_ms > 2 * goal_ms && parts->height >= 2 * parts->least_height)
-        parts->height /= 2;
-    else if (took_ms > 2 * goal_ms && parts->width > 1)
-        parts->width /= 2;
-}
-
-/* Goes to the next part; false: there is none. */
-static bool step(struct parts *parts, const struct render_plan *plan)
-{
-    const struct window *window = &plan->window;
-    struct reference_window *part = &parts->part;
-    const int right = (int)(window->x + window->width), bottom = (int)(window->y + window->height);
-    part->x += part->width;
-    if (part->x == right || part->height == 0) {
-        const int y = part->height == 0 ? (int)window->y : part->y + part->height;
-        *part =
-            (struct reference_window){.x = (int)window->x, .y = y, .height = MIN(parts->height, bottom - y)};
+#pragma omp critical(reference_progress)
+    {
+        rays_add(sum, *traced);
+        progress_advance(progress, traced->primary);
     }
-    part->width = MIN(parts->width, right - part->x);
-    return part->height > 0;
+    *traced = (struct reference_rays){0};
+}
+
+/* Traces the plan's window in its precision; values.rays are not set, but added to. */
+static void trace_window(const struct render_plan *plan, const struct packed_scene *scene,
+                         const struct tracer_values *values, struct progress *progress)
+{
+    static reference_tracer *const tracers[] = {
+        [PRECISION_FLOAT] = reference_trace_float,
+        [PRECISION_DOUBLE] = reference_trace_double,
+        [PRECISION_QUAD] = reference_trace_quad,
+    };
+    const struct window window = plan->window;
+    const size_t pixels = (size_t)window.width * window.height;
+#pragma omp parallel num_threads(reference_threads(plan->threads))
+    {
+        struct reference_rays traced = {0};
+#pragma omp for schedule(dynamic, PIXELS_AT_ONCE)
+        for (size_t i = 0; i < pixels; ++i) {
+            const int x = (int)(window.x + i % window.width), y = (int)(window.y + i / window.width);
+            const struct reference_pixel pixel = tracers[plan->precision](scene, x, y, NULL);
+            put_pixel(scene, &pixel, i, values);
+            rays_add(&traced, pixel.rays);
+            if (traced.primary + traced.secondary + traced.shadow > RAYS_BETWEEN)
+                tell(&traced, values->rays, progress);
+        }
+        tell(&traced, values->rays, progress);
+    }
 }
 
 static enum status render_once_on_cpu(void *renderer, const struct render_plan *plan, struct image *image,
                                       struct progress *progress, struct tracer_times *times)
 {
-    static void (*const render[])(const struct packed_scene *, struct reference_window, int,
-                                  struct reference_picture *) = {
-        [PRECISION_FLOAT] = reference_render_float,
-        [PRECISION_DOUBLE] = reference_render_double,
-        [PRECISION_QUAD] = reference_render_quad,
-    };
-    struct reference_rays *rays = renderer;
-    const int threads = reference_threads(plan->threads), width = (int)plan->window.width;
-    struct parts parts = choose_first(plan, threads);
-    double *values = calloc((size_t)parts.most_pixels * 4, sizeof *values);
-    if (!values) {
-        log_error("no memory for %d pixels", parts.most_pixels);
-        return STATUS_UNABLE;
-    }
-    struct reference_picture picture = {
-        .rgb = values,
-        .charges = plan->bound_truncation ? values + 3 * (size_t)parts.most_pixels : NULL,
-    };
-    *times = (struct tracer_times){0};
-    while (step(&parts, plan)) {
-        const uint64_t samples =
-            (uint64_t)parts.part.width * (uint64_t)parts.part.height * (uint64_t)plan->scene->samples;
-        double start = clock_ms();
-        progress_begin(progress, samples);
-        render[plan->precision](plan->scene, parts.part, threads, &picture);
-        const double took_ms = clock_ms() - start;
-        times->dispatch_ms += took_ms;
-        for (int row = 0; row < parts.part.height; ++row)
-            copy_row(plan, parts.part, row, &picture, image);
-        progress_advance(progress, samples);
-        choose_next(&parts, took_ms, width);
-    }
-    rays_add(rays, picture.rays);
-    free(values);
+    const double start = clock_ms();
+    trace_window(plan, plan->scene, &(struct tracer_values){.image = image, .rays = renderer}, progress);
+    *times = (struct tracer_times){.dispatch_ms = clock_ms() - start};
     return STATUS_DONE;
 }
 
@@ -143,39 +86,32 @@ enum status render_on_cpu(const struct render_plan *plan, struct rendering *rend
     return render_repeatedly(render_once_on_cpu, &rendering->rays, &with_tree, rendering);
 }
 
-/* Explains the plan's window in bands, after each of which there is progress. */
-static void explain(const struct render_plan *plan, const struct packed_scene *scene,
-                    enum precision precision, struct reference_explanation *pixels)
-{
-    const struct window *window = &plan->window;
-    const int threads = reference_threads(plan->threads);
-    const unsigned band_height = 4 * (unsigned)threads;
-    struct progress progress;
-    progress_start(&progress, "exact picture", (uint64_t)window->width * window->height, plan->quiet);
-    for (unsigned y = 0; y < window->height; y += band_height) {
-        struct reference_window band = band_of(plan, y, band_height);
-        struct reference_explanation *first = pixels + (size_t)y * window->width;
-        if (precision == PRECISION_DOUBLE)
-            reference_explain_double(scene, band, threads, first);
-        else
-            reference_explain_quad(scene, band, threads, first);
-        progress_advance(&progress, (uint64_t)band.width * (uint64_t)band.height);
-    }
-    progress_end(&progress);
-}
-
 enum status explain_on_cpu(const struct render_plan *plan, enum precision precision,
                            struct reference_explanation **explanations)
 {
+    reference_explainer *const explain =
+        precision == PRECISION_DOUBLE ? reference_explain_double : reference_explain_quad;
+    const struct window window = plan->window;
+    const size_t pixels = (size_t)window.width * window.height;
     struct packed_scene scene;
     enum status status = reference_scene(plan->scene, plan->threads, &scene);
     *explanations = NULL;
     if (status != STATUS_DONE)
         return status;
-    *explanations = allocate_pixels(&plan->window, sizeof **explanations);
-    if (*explanations)
-        explain(plan, &scene, precision, *explanations);
-    return *explanations ? STATUS_DONE : STATUS_UNABLE;
+    *explanations = allocate_pixels(&window, sizeof **explanations);
+    if (!*explanations)
+        return STATUS_UNABLE;
+    struct progress progress;
+    progress_start(&progress, "exact picture", pixels, plan->quiet);
+#pragma omp parallel for schedule(dynamic) num_threads(reference_threads(plan->threads))
+    for (size_t i = 0; i < pixels; ++i) {
+        const int x = (int)(window.x + i % window.width), y = (int)(window.y + i / window.width);
+        (*explanations)[i] = explain(&scene, x, y, NULL);
+#pragma omp critical(reference_progress)
+        progress_advance(&progress, 1);
+    }
+    progress_end(&progress);
+    return STATUS_DONE;
 }
 
 enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatures)
@@ -185,18 +121,17 @@ enum status signatures_on_cpu(const struct render_plan *plan, uint32_t **signatu
     *signatures = NULL;
     if (status != STATUS_DONE)
         return status;
-    struct reference_picture picture = {
-        .rgb = allocate_pixels(&plan->window, 3 * sizeof(double)),
-        .signatures = allocate_pixels(&plan->window, sizeof **signatures),
-    };
-    if (picture.rgb && picture.signatures) {
-        reference_render_float(&scene, band_of(plan, 0, plan->window.height),
-                               reference_threads(plan->threads), &picture);
-        *signatures = picture.signatures;
-    } else {
-        free(picture.signatures);
-        status = STATUS_UNABLE;
-    }
-    free(picture.rgb);
-    return status;
+    *signatures = allocate_pixels(&plan->window, sizeof **signatures);
+    if (!*signatures)
+        return STATUS_UNABLE;
+    struct render_plan in_float = *plan;
+    in_float.precision = PRECISION_FLOAT;
+    struct progress progress;
+    progress_start(&progress, "path signatures",
+                   (uint64_t)plan->window.width * plan->window.height * (uint64_t)scene.samples, plan->quiet);
+    trace_window(&in_float, &scene,
+                 &(struct tracer_values){.signatures = *signatures, .rays = &(struct reference_rays){0}},
+                 &progress);
+    progress_end(&progress);
+    return STATUS_DONE;
 }

@@ -59,6 +59,8 @@ enum status explain_on_cpu(const struct render_plan *plan, enum precision precis
 typedef enum status render_once(void *renderer, const struct render_plan *plan, struct image *image,
                                 struct progress *progress, struct tracer_times *times);
 
+render_once render_once_on_device; /* whose renderer is a tracer */
+
 /* Renders once cold and plan->repeat times warm, and fills rendering's image and times. On failure there is
  * no image. */
 enum status render_repeatedly(render_once *render, void *renderer, const struct render_plan *plan,

@@ -51,18 +51,17 @@ struct specialization specialize(const struct vulkan_context *context, const str
         .processor = size->on_processor,
         .samples_apart = size->samples < (uint32_t)scene->samples,
         .light_points_a_turn = size->light_points_a_turn,
-        .objects_a_turn = (int32_t)size->objects_a_turn,
+        .giants = scene->giants,
         .hoisted = size->on_processor && scene->looped_spheres + scene->plane_count +
                                                  scene->point_light_count + scene->quad_light_count <=
                                              MOST_HOISTED,
         .primary_rays_first = size->primary_rays_first && options->event_room == 0,
         .all_spheres = scene->sphere_count,
         .most_steps = size->most_steps,
-        .giants = scene->giants,
     };
     int last_sphere_order = -1;
-    for (int i = 0; i < scene->surface_count; ++i)
-        note_surface(&constants, scene, &scene->surfaces[i]);
+    for (int i = 0; i < packed_surface_count(scene); ++i)
+        note_surface(&constants, scene, packed_surface(scene, i));
     for (int i = 0; i < scene->sphere_count; ++i) {
         const layout_ivec4 tags = scene->spheres[i].tags;
         constants.spheres_hold_rays |= tags.HOLDS_RAYS != 0;
@@ -74,7 +73,6 @@ struct specialization specialize(const struct vulkan_context *context, const str
     }
     for (int i = 0; i < scene->plane_count; ++i) {
         const PackedSurface *surface = &scene->planes[i].surface;
-        note_surface(&constants, scene, surface);
         constants.glass_planes |= surface->tags.SURFACE_KIND == KIND_TRANSPARENT;
         constants.planes_shadow |= surface->tags.CASTS_SHADOWS != 0;
         constants.mixed_order |= surface->tags.FILE_ORDER < last_sphere_order;

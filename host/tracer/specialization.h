@@ -15,10 +15,10 @@ struct specialization {
     VkBool32 corrected_division, corrected_root; /* see probe.h */
     VkBool32 prunes, charges, resumable, rays_escape, processor, samples_apart;
     uint32_t light_points_a_turn;
-    int32_t objects_a_turn;
+    uint32_t giants;
     VkBool32 hoisted, primary_rays_first;
     int32_t all_spheres;
-    uint32_t most_steps, giants;
+    uint32_t most_steps;
 };
 
 /* Finds what the scene and the device, whose arithmetic is known, need, so that the pipeline holds nothing

@@ -10,7 +10,7 @@ static const double goal_ms = 50;
 
 /* A picture on its way: tiles from left to right and from top to bottom. */
 struct course {
-    struct tiles *tiles;
+    struct tracer *tracer;
     struct window window;
     const struct tracer_values *values;
     struct progress *progress;
@@ -29,33 +29,18 @@ static unsigned larger(unsigned a, unsigned b)
     return a > b ? a : b;
 }
 
-void tiles_create(const struct dispatcher *dispatcher, struct tiles *tiles)
+void tiles_destroy(struct tracer *tracer)
 {
-    *tiles = (struct tiles){
-        .dispatcher = dispatcher,
-        .pixels = dispatcher->size.tile_pixels,
-        .turns = dispatcher->size.most_turns,
-    };
-}
-
-static void destroy_frames(struct tiles *tiles)
-{
-    for (unsigned i = 0; i < tiles->frame_count; ++i)
-        dispatch_frame_destroy(tiles->dispatcher, &tiles->frames[i]);
-    tiles->frame_count = 0;
-}
-
-void tiles_destroy(struct tiles *tiles)
-{
-    destroy_frames(tiles);
-    *tiles = (struct tiles){0};
+    for (unsigned i = 0; i < tracer->frame_count; ++i)
+        dispatch_frame_destroy(&tracer->dispatcher, &tracer->frames[i]);
+    tracer->frame_count = 0;
 }
 
 /* Makes the frames that a window needs, or keeps those there are. A tile is as wide as the window, if it can
  * have a row of groups then. Rows of groups have an excess, see dispatch.c. */
-static enum status require_frames(struct tiles *tiles, const struct window *window)
+static enum status require_frames(struct tracer *tracer, const struct window *window)
 {
-    const struct dispatch_size *size = &tiles->dispatcher->size;
+    const struct dispatch_size *size = &tracer->dispatcher.size;
     const unsigned rows = smaller(size->group_height, window->height);
     const unsigned columns = size->group_width * size->columns;
     const unsigned groups =
@@ -65,15 +50,16 @@ static enum status require_frames(struct tiles *tiles, const struct window *wind
     unsigned height = smaller(window->height, size->tile_pixels / width);
     height = smaller(height, groups / ((width + columns - 1) / columns) * size->group_height);
     unsigned count = width < window->width || height < window->height ? FRAMES : 1;
-    if (tiles->frame_count >= count && tiles->width >= width && tiles->height >= height)
+    if (tracer->frame_count >= count && tracer->width >= width && tracer->height >= height)
         return STATUS_DONE;
-    destroy_frames(tiles);
-    tiles->width = width;
-    tiles->height = height;
+    tiles_destroy(tracer);
+    tracer->width = width;
+    tracer->height = height;
     enum status status = STATUS_DONE;
-    while (tiles->frame_count < count && status == STATUS_DONE) {
-        status = dispatch_frame_create(tiles->dispatcher, width, height, &tiles->frames[tiles->frame_count]);
-        tiles->frame_count += status == STATUS_DONE;
+    while (tracer->frame_count < count && status == STATUS_DONE) {
+        status =
+            dispatch_frame_create(&tracer->dispatcher, width, height, &tracer->frames[tracer->frame_count]);
+        tracer->frame_count += status == STATUS_DONE;
     }
     return status;
 }
@@ -103,7 +89,7 @@ static void copy_row(const struct dispatch_frame *frame, enum value_type type, s
 /* Takes the values of the frame's samples. */
 static enum status take(struct course *course, struct dispatch_frame *frame, bool last)
 {
-    const struct dispatcher *dispatcher = course->tiles->dispatcher;
+    const struct dispatcher *dispatcher = &course->tracer->dispatcher;
     const struct portion *portion = &frame->portion;
     struct reference_rays *rays = course->values->rays;
     enum status status = last || rays ? dispatch_frame_fetch(dispatcher, frame) : STATUS_DONE;
@@ -127,12 +113,12 @@ static enum status take(struct course *course, struct dispatch_frame *frame, boo
 /* Starts the frame's samples from the first on. */
 static enum status start_samples(struct course *course, struct dispatch_frame *frame, uint32_t first)
 {
-    const struct dispatcher *dispatcher = course->tiles->dispatcher;
+    const struct dispatcher *dispatcher = &course->tracer->dispatcher;
     frame->portion.first_sample = first;
     frame->portion.end_sample =
-        first + smaller(dispatcher->size.samples, (uint32_t)dispatcher->info->scene->samples - first);
+        first + smaller(dispatcher->size.samples, (uint32_t)dispatcher->scene->samples - first);
     frame->portion.goes_on = 0;
-    frame->portion.most_turns = course->tiles->turns;
+    frame->portion.most_turns = course->tracer->turns;
     return dispatch_frame_start(dispatcher, frame);
 }
 
@@ -143,19 +129,20 @@ static uint64_t tile_pixels(const struct dispatch_frame *frame)
 
 static enum status start_next_tile(struct course *course, struct dispatch_frame *frame)
 {
-    const struct tiles *tiles = course->tiles;
-    const struct dispatch_size *size = &tiles->dispatcher->size;
-    const struct packed_scene *scene = tiles->dispatcher->info->scene;
+    const struct tracer *tracer = course->tracer;
+    const struct dispatch_size *size = &tracer->dispatcher.size;
+    const struct packed_scene *scene = tracer->dispatcher.scene;
     const unsigned rows = size->group_height;
     if (course->x == 0) {
         const unsigned left = course->window.height - course->y;
-        const unsigned most = smaller(tiles->height, tiles->pixels / smaller(tiles->pixels, tiles->width));
+        const unsigned most =
+            smaller(tracer->height, tracer->pixels / smaller(tracer->pixels, tracer->width));
         course->row_height = most >= left ? left : most > rows ? most - most % rows : most;
     }
     frame->portion = (struct portion){
         .tile_x = course->window.x + course->x,
         .tile_y = course->window.y + course->y,
-        .tile_width = smaller(tiles->width, course->window.width - course->x),
+        .tile_width = smaller(tracer->width, course->window.width - course->x),
         .tile_height = course->row_height,
         .picture_width = (uint32_t)scene->width,
         .picture_height = (uint32_t)scene->height,
@@ -165,7 +152,7 @@ static enum status start_next_tile(struct course *course, struct dispatch_frame 
         course->x = 0;
         course->y += course->row_height;
     }
-    course->told[frame - tiles->frames] = 0;
+    course->told[frame - tracer->frames] = 0;
     progress_begin(course->progress, tile_pixels(frame) * (uint64_t)scene->samples);
     return start_samples(course, frame, 0);
 }
@@ -174,7 +161,7 @@ static enum status start_next_tile(struct course *course, struct dispatch_frame 
 static void tell(struct course *course, const struct dispatch_frame *frame, uint32_t unfinished)
 {
     const struct portion *portion = &frame->portion;
-    uint64_t *told = &course->told[frame - course->tiles->frames];
+    uint64_t *told = &course->told[frame - course->tracer->frames];
     const uint64_t of_portion =
         (tile_pixels(frame) - unfinished) * (portion->end_sample - portion->first_sample);
     const uint64_t samples = tile_pixels(frame) * portion->first_sample + of_portion;
@@ -196,23 +183,23 @@ static uint32_t adapted(uint32_t quantity, double took_ms, uint32_t least, uint3
 static enum status advance(struct course *course, struct dispatch_frame *frame)
 {
     enum { LEAST_PIXELS = 4096 };
-    struct tiles *tiles = course->tiles;
-    const struct dispatch_size *size = &tiles->dispatcher->size;
-    const uint32_t samples = (uint32_t)tiles->dispatcher->info->scene->samples;
+    struct tracer *tracer = course->tracer;
+    const struct dispatch_size *size = &tracer->dispatcher.size;
+    const uint32_t samples = (uint32_t)tracer->dispatcher.scene->samples;
     uint32_t unfinished;
     double device_ms = 0;
-    enum status status = dispatch_frame_wait(tiles->dispatcher, frame, &device_ms, &unfinished);
+    enum status status = dispatch_frame_wait(&tracer->dispatcher, frame, &device_ms, &unfinished);
     course->device_ms += device_ms;
     if (status != STATUS_DONE)
         return status;
-    tiles->turns = adapted(tiles->turns, device_ms, 1, size->most_turns);
+    tracer->turns = adapted(tracer->turns, device_ms, 1, size->most_turns);
     if (!frame->portion.goes_on)
-        tiles->pixels = adapted(tiles->pixels, device_ms, LEAST_PIXELS, size->tile_pixels);
+        tracer->pixels = adapted(tracer->pixels, device_ms, LEAST_PIXELS, size->tile_pixels);
     tell(course, frame, unfinished);
     if (unfinished > 0) {
         frame->portion.goes_on = 1;
-        frame->portion.most_turns = tiles->turns;
-        return dispatch_frame_start(tiles->dispatcher, frame);
+        frame->portion.most_turns = tracer->turns;
+        return dispatch_frame_start(&tracer->dispatcher, frame);
     }
     const uint32_t end = frame->portion.end_sample;
     status = take(course, frame, end == samples);
@@ -222,13 +209,13 @@ static enum status advance(struct course *course, struct dispatch_frame *frame)
 /* Has each frame render tiles until there are none left. */
 static enum status run(struct course *course)
 {
-    struct tiles *tiles = course->tiles;
+    struct tracer *tracer = course->tracer;
     enum status status = STATUS_DONE;
     bool under_way = true;
     while (status == STATUS_DONE && under_way) {
         under_way = false;
-        for (unsigned i = 0; i < tiles->frame_count && status == STATUS_DONE; ++i) {
-            struct dispatch_frame *frame = &tiles->frames[i];
+        for (unsigned i = 0; i < tracer->frame_count && status == STATUS_DONE; ++i) {
+            struct dispatch_frame *frame = &tracer->frames[i];
             if (frame->under_way)
                 status = advance(course, frame);
             if (status == STATUS_DONE && !frame->under_way && course->y < course->window.height)
@@ -239,22 +226,22 @@ static enum status run(struct course *course)
     return status;
 }
 
-enum status tiles_render(struct tiles *tiles, struct window window, const struct tracer_values *values,
+enum status tiles_render(struct tracer *tracer, struct window window, const struct tracer_values *values,
                          struct progress *progress, struct tracer_times *times)
 {
-    struct course course = {.tiles = tiles, .window = window, .values = values, .progress = progress};
+    struct course course = {.tracer = tracer, .window = window, .values = values, .progress = progress};
     *times = (struct tracer_times){0};
     if (values->rays)
-        *values->rays = (struct reference_rays){.primary = (uint64_t)window.width * window.height *
-                                                           (uint64_t)tiles->dispatcher->info->scene->samples};
-    enum status status = require_frames(tiles, &window);
+        values->rays->primary +=
+            (uint64_t)window.width * window.height * (uint64_t)tracer->dispatcher.scene->samples;
+    enum status status = require_frames(tracer, &window);
     const double start = clock_ms();
     if (status == STATUS_DONE)
         status = run(&course);
     /* the other frame, after a failure */
-    for (unsigned i = 0; i < tiles->frame_count; ++i)
-        if (tiles->frames[i].under_way)
-            dispatch_frame_wait(tiles->dispatcher, &tiles->frames[i], NULL, &(uint32_t){0});
+    for (unsigned i = 0; i < tracer->frame_count; ++i)
+        if (tracer->frames[i].under_way)
+            dispatch_frame_wait(&tracer->dispatcher, &tracer->frames[i], NULL, &(uint32_t){0});
     *times = (struct tracer_times){.dispatch_ms = course.end_ms - start, .device_ms = course.device_ms};
     return status;
 }

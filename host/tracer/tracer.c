@@ -7,12 +7,6 @@
 #include "tracer/tiles.h"
 #include "vulkan/probe.h"
 
-struct tracer {
-    struct dispatcher_info info;
-    struct dispatcher dispatcher;
-    struct tiles tiles;
-};
-
 struct shader_choice tracer_shader(const struct vulkan_context *context, const struct packed_scene *scene,
                                    const struct tracer_options *options)
 {
@@ -35,21 +29,24 @@ enum status tracer_create(struct vulkan_context *context, const struct packed_sc
         log_error("no memory for the tracer");
         return STATUS_UNABLE;
     }
-    struct dispatcher_info *info = &tracer->info;
-    *info = (struct dispatcher_info){.context = context, .scene = scene, .options = *options};
+    struct dispatcher *dispatcher = &tracer->dispatcher;
+    *dispatcher = (struct dispatcher){
+        .context = context,
+        .scene = scene,
+        .options = *options,
+    };
     enum status status = options->fast ? STATUS_DONE : probe_require_exact(context);
     if (status == STATUS_DONE && options->double_precision && !context->has_float64) {
         log_error("%s has no double precision (shaderFloat64)", context->properties.deviceName);
         status = STATUS_UNABLE;
     }
-    info->choice = tracer_shader(context, scene, options);
+    dispatcher->choice = tracer_shader(context, scene, options);
     if (status == STATUS_DONE && options->shaders)
-        status = shader_folder_code(options->shaders, info->choice, &info->options.code);
+        status = shader_folder_code(options->shaders, dispatcher->choice, &dispatcher->options.code);
     if (status == STATUS_DONE)
-        status = scene_buffer_create(context, scene, info->choice.scene_in_storage, &info->scene_buffer);
-    if (status == STATUS_DONE)
-        status = dispatcher_create(info, &tracer->dispatcher);
-    tiles_create(&tracer->dispatcher, &tracer->tiles);
+        status = dispatcher_create(dispatcher);
+    tracer->pixels = dispatcher->size.tile_pixels;
+    tracer->turns = dispatcher->size.most_turns;
     if (status != STATUS_DONE)
         tracer_destroy(pointer);
     return status;
@@ -61,41 +58,32 @@ void tracer_destroy(struct tracer **pointer)
     *pointer = NULL;
     if (!tracer)
         return;
-    tiles_destroy(&tracer->tiles);
+    tiles_destroy(tracer);
     dispatcher_destroy(&tracer->dispatcher);
-    scene_buffer_destroy(tracer->info.context, &tracer->info.scene_buffer);
     free(tracer);
 }
 
 bool tracer_update(struct tracer *tracer, const struct packed_scene *scene)
 {
-    struct dispatcher_info *info = &tracer->info;
-    const struct dispatch_size *size = &tracer->dispatcher.size;
-    const struct specialization built = specialize(info->context, info->scene, size, &info->options);
-    const struct specialization needed = specialize(info->context, scene, size, &info->options);
+    struct dispatcher *dispatcher = &tracer->dispatcher;
+    const struct specialization built = dispatcher_specialization(dispatcher, dispatcher->scene),
+                                needed = dispatcher_specialization(dispatcher, scene);
     if (memcmp(&built, &needed, sizeof built) != 0 ||
-        !scene_buffer_update(&info->scene_buffer, info->scene, scene))
+        !scene_buffer_update(&dispatcher->scene_buffer, dispatcher->scene, scene))
         return false;
-    info->scene = scene;
+    dispatcher->scene = scene;
     return true;
 }
 
-enum status tracer_render_values(struct tracer *tracer, struct window window,
-                                 const struct tracer_values *values, struct progress *progress,
-                                 struct tracer_times *times)
-{
-    return tiles_render(&tracer->tiles, window, values, progress, times);
-}
-
-enum status tracer_render(struct tracer *tracer, struct window window, struct image *image,
+enum status tracer_render(struct tracer *tracer, struct window window, const struct tracer_values *values,
                           struct progress *progress, struct tracer_times *times)
 {
-    return tracer_render_values(tracer, window, &(struct tracer_values){.image = image}, progress, times);
+    return tiles_render(tracer, window, values, progress, times);
 }
 
 uint32_t tracer_events(const struct tracer *tracer, const void **events)
 {
-    const struct event_block *block = tracer->tiles.frames[0].buffers[EVENTS].mapped;
+    const struct event_block *block = tracer->frames[0].buffers[EVENTS].mapped;
     *events = block + 1;
     return block->count;
 }

@@ -26,12 +26,7 @@ bool tracer_update(struct tracer *tracer, const struct packed_scene *scene);
 
 /* Renders the window of the picture. Advances progress, whose unit is a sample of a pixel. A failure
  * (reported) leaves the pipeline as it was. */
-enum status tracer_render_values(struct tracer *tracer, struct window window,
-                                 const struct tracer_values *values, struct progress *progress,
-                                 struct tracer_times *times);
-
-/* The same for the outputs that are images. */
-enum status tracer_render(struct tracer *tracer, struct window window, struct image *image,
+enum status tracer_render(struct tracer *tracer, struct window window, const struct tracer_values *values,
                           struct progress *progress, struct tracer_times *times);
 
 /* The events of the pixel that was rendered last, in a window of its own, in the tracer's memory: EventHead

@@ -8,7 +8,7 @@
 struct tracer_values {
     struct image *image; /* of the window's size; gets the values in double precision and the charges, if it
                           * has room */
-    struct reference_rays *rays; /* OUTPUT_RAYS: the sums over the window */
+    struct reference_rays *rays; /* OUTPUT_RAYS: the window's are added */
     uint32_t *signatures;        /* OUTPUT_SIGNATURE: a pixel each */
 };
 

@@ -146,12 +146,6 @@ static enum status compile(struct session *session, const struct picture *pictur
     return session->compiled;
 }
 
-static enum status render_once_by(void *tracer, const struct render_plan *plan, struct image *image,
-                                  struct progress *progress, struct tracer_times *times)
-{
-    return tracer_render(tracer, plan->window, image, progress, times);
-}
-
 /* Gives the picture its image. *pipeline_ms is the time that a new pipeline took to build, and 0 where the
  * one there was fits. After a failure the next picture gets a new one, whatever state this one is in. */
 static enum status render(struct session *session, struct picture *picture, double *pipeline_ms)
@@ -169,7 +163,7 @@ static enum status render(struct session *session, struct picture *picture, doub
     if (status != STATUS_DONE)
         return status;
     replace(session, &session->traced, picture);
-    status = render_repeatedly(render_once_by, session->tracer, &picture->job.plan, &rendering);
+    status = render_repeatedly(render_once_on_device, session->tracer, &picture->job.plan, &rendering);
     picture->image = rendering.image;
     picture->dispatch_ms = rendering.times.dispatch_ms;
     if (status != STATUS_DONE)

@@ -88,7 +88,7 @@ broken_term() { differs_in term "$figure" received '300 20'; }
 # Only the picture's own pipeline is wrong, and what is recorded is right.
 broken_picture() {
     expect 1 broken picture "$figure" 200 230
-    said '^the picture has [0-9. ]+ here, the reference.s [0-9. ]+: not what was recorded$' out
+    said '^the picture has [0-9. ]+ here: not what was recorded$' out
     not_said 'first difference|DIFFERS' out
 }
 

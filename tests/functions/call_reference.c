@@ -41,44 +41,32 @@ static HitRecord record_of(bool met, const struct hit *hit)
     return met ? (HitRecord){1, hit->distance, hit->from_inside, hit->point, hit->normal} : (HitRecord){0};
 }
 
-void call_meet_sphere(const meet_sphere_input *input, meet_sphere_output *output)
-{
-    const struct ray ray = ray_of(&input->ray);
-    struct hit hit = {.surface = 0};
-    bool met = meet_sphere(&input->sphere, 0, &ray, &hit.distance, &hit.from_inside) &&
-               hit.distance < (real)FARTHEST_HIT;
-    Sphere sphere = input->sphere;
-    if (met)
-        locate(&(struct packed_scene){.sphere_count = 1, .spheres = &sphere}, &ray, &hit);
-    output->hit = record_of(met, &hit);
-}
-
-/* A scene of nothing but a giant. */
-struct giant_scene {
-    Sphere giant;
+/* A scene of nothing but a sphere, which is a giant if it has a curvature. */
+struct sphere_scene {
+    Sphere sphere;
     PackedSurface surface;
     struct packed_scene scene;
 };
 
-static void set_giant_scene(struct giant_scene *set, Sphere giant, float curvature)
+static void set_sphere_scene(struct sphere_scene *set, Sphere sphere, float curvature)
 {
-    *set = (struct giant_scene){
-        .giant = giant,
+    *set = (struct sphere_scene){
+        .sphere = sphere,
         .surface.more_parameters.CURVATURE = curvature,
         .scene = {.sphere_count = 1,
                   .looped_spheres = 1,
-                  .giants = 1,
-                  .spheres = &set->giant,
+                  .giants = curvature > 0,
+                  .spheres = &set->sphere,
                   .surfaces = &set->surface},
     };
 }
 
-void call_meet_giant(const meet_giant_input *input, meet_giant_output *output)
+void call_meet_sphere(const meet_sphere_input *input, meet_sphere_output *output)
 {
     const struct ray ray = ray_of(&input->ray);
-    struct giant_scene set;
+    struct sphere_scene set;
     struct hit hit;
-    set_giant_scene(&set, input->giant, input->curvature);
+    set_sphere_scene(&set, input->sphere, input->curvature);
     output->hit = record_of(find_hit(&set.scene, &ray, &hit), &hit);
 }
 
@@ -123,14 +111,8 @@ static struct segment segment_of(const SegmentRecord *segment)
 void call_sphere_shadows(const sphere_shadows_input *input, sphere_shadows_output *output)
 {
     const struct segment segment = segment_of(&input->segment);
-    output->shadows = sphere_blocks(&input->sphere, 0, &segment);
-}
-
-void call_giant_shadows(const giant_shadows_input *input, giant_shadows_output *output)
-{
-    const struct segment segment = segment_of(&input->segment);
-    struct giant_scene set;
-    set_giant_scene(&set, input->giant, input->curvature);
+    struct sphere_scene set;
+    set_sphere_scene(&set, input->sphere, input->curvature);
     output->shadows = is_blocked(&set.scene, &segment);
 }
 

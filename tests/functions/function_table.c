@@ -14,7 +14,7 @@ enum {
     PLANE_AXES = 18,
     ENTERED_SPHERES = 20,
     ALL_SPHERES = 34,
-    GIANTS = 36,
+    GIANTS = 31,
 };
 
 const struct pass_constant common_constants[COMMON_CONSTANTS] = {
@@ -63,6 +63,7 @@ FUNCTIONS(UNTYPED)
     {                                                                                                        \
         ENTERED_SPHERES, 0                                                                                   \
     }
+#define GIANT_NEVER_ENTERED .giant = true, .never_entered = true
 #define TWO_OF_EACH                                                                                          \
     {SPHERES, 2}, {ALL_SPHERES, 2},                                                                          \
     {                                                                                                        \
@@ -77,8 +78,8 @@ const struct function_test function_tests[] = {
     GENERAL(sobol_point),
     GENERAL(meet_sphere),
     TEST(meet_sphere, "/never_entered", .never_entered = true, NEVER_ENTERED),
-    TEST(meet_giant, "", 0, {GIANTS, 1}),
-    TEST(meet_giant, "/never_entered", .never_entered = true, NEVER_ENTERED, {GIANTS, 1}),
+    TEST(meet_sphere, "/giant", .giant = true, {GIANTS, 1}),
+    TEST(meet_sphere, "/giant_never_entered", GIANT_NEVER_ENTERED, NEVER_ENTERED, {GIANTS, 1}),
     GENERAL(meet_plane),
     TEST(meet_plane, "/opaque", .opaque_planes = true, {GLASS_PLANES, 0}),
     TEST(meet_plane, "/axis_x", .axis = 1, {PLANE_AXES, 1}),
@@ -88,8 +89,8 @@ const struct function_test function_tests[] = {
     TEST(nearest_hit, "/in_order", .in_order = true, TWO_OF_EACH, {MIXED_ORDER, 0}),
     GENERAL(sphere_shadows),
     TEST(sphere_shadows, "/never_entered", .never_entered = true, NEVER_ENTERED),
-    TEST(giant_shadows, "", 0, {GIANTS, 1}),
-    TEST(giant_shadows, "/never_entered", .never_entered = true, NEVER_ENTERED, {GIANTS, 1}),
+    TEST(sphere_shadows, "/giant", .giant = true, {GIANTS, 1}),
+    TEST(sphere_shadows, "/giant_never_entered", GIANT_NEVER_ENTERED, NEVER_ENTERED, {GIANTS, 1}),
     GENERAL(plane_shadows),
     TEST(plane_shadows, "/opaque", .opaque_planes = true, {GLASS_PLANES, 0}),
     GENERAL(reflect),

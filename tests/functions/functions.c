@@ -132,7 +132,7 @@ static enum status run_test(const struct plan *plan, const struct function_test 
     }
     if (status != STATUS_DONE)
         return status;
-    printf("%-29s %10lu %12.2f %12.2f\n", test->name, result.differing,
+    printf("%-34s %10lu %12.2f %12.2f\n", test->name, result.differing,
            result.device_ns / (double)plan->cases, result.reference_ns / (double)plan->cases);
     fflush(stdout);
     return result.differing > 0 ? STATUS_DIFFERS : STATUS_DONE;
@@ -154,7 +154,7 @@ static enum status run_tests(const struct plan *plan, struct vulkan_context *con
     bool corrected = device.corrected_division || device.corrected_root;
     printf("%s%s, seed %lu, %lu cases each from %lu\n", context->properties.deviceName,
            corrected ? ", corrected" : "", plan->seed, plan->cases, plan->first);
-    printf("%-29s %10s %12s %12s\n", "function", "differing", "device ns", "C ns");
+    printf("%-34s %10s %12s %12s\n", "function", "differing", "device ns", "C ns");
     size_t matching = 0;
     for (size_t i = 0; i < function_test_count && result <= STATUS_DIFFERS; ++i) {
         if (plan->only && strcmp(plan->only, function_tests[i].name) != 0)

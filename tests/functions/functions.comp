@@ -99,26 +99,22 @@ HitRecord record_of(Ray ray, Hit hit)
     return HitRecord(1, hit.distance, int(hit.from_inside), vector_of(point), vector_of(normal));
 }
 
-void call_meet_sphere(meet_sphere_input i, out meet_sphere_output o)
-{
-    hoisted_spheres[0].sphere = sphere_of(i.sphere);
-    Hit nearest = no_hit();
-    meet_sphere(ray_of(i.ray), 0, nearest);
-    o.hit = record_of(ray_of(i.ray), nearest);
-}
-
-LoopedSphere giant_of(Sphere giant, float curvature)
+// Sphere 0; one that is a giant, where the pipeline has such, has a curvature.
+void set_sphere(Sphere sphere, float curvature)
 {
     PackedSurface surface = PackedSurface(vec4(0), vec4(0), ivec4(0));
     surface.more_parameters.CURVATURE = curvature;
-    return LoopedSphere(sphere_of(giant), surface);
+    hoisted_spheres[0] = LoopedSphere(sphere_of(sphere), surface);
 }
 
-void call_meet_giant(meet_giant_input i, out meet_giant_output o)
+void call_meet_sphere(meet_sphere_input i, out meet_sphere_output o)
 {
-    hoisted_spheres[0] = giant_of(i.giant, i.curvature);
+    set_sphere(i.sphere, i.curvature);
     Hit nearest = no_hit();
-    meet_giant(ray_of(i.ray), 0, nearest);
+    if (is_giant(0))
+        meet_giant(ray_of(i.ray), 0, nearest);
+    else
+        meet_sphere(ray_of(i.ray), 0, nearest);
     o.hit = record_of(ray_of(i.ray), nearest);
 }
 
@@ -145,16 +141,13 @@ void call_nearest_hit(nearest_hit_input i, out nearest_hit_output o)
 
 void call_sphere_shadows(sphere_shadows_input i, out sphere_shadows_output o)
 {
-    hoisted_spheres[0].sphere = sphere_of(i.sphere);
-    o.shadows = int(sphere_shadows(0, vec3_of(i.segment.from), i.segment.surface, i.segment.inward != 0,
-                                   vec3_of(i.segment.direction), i.segment.distance, vec3_of(i.segment.to)));
-}
-
-void call_giant_shadows(giant_shadows_input i, out giant_shadows_output o)
-{
-    hoisted_spheres[0] = giant_of(i.giant, i.curvature);
-    o.shadows = int(giant_shadows(0, vec3_of(i.segment.from), i.segment.surface, i.segment.inward != 0,
-                                  vec3_of(i.segment.direction), i.segment.distance, vec3_of(i.segment.to)));
+    set_sphere(i.sphere, i.curvature);
+    vec3 from = vec3_of(i.segment.from), to = vec3_of(i.segment.to), direction = vec3_of(i.segment.direction);
+    bool inward = i.segment.inward != 0;
+    if (is_giant(0))
+        o.shadows = int(giant_shadows(0, from, i.segment.surface, inward, direction, i.segment.distance, to));
+    else
+        o.shadows = int(sphere_shadows(0, from, i.segment.surface, inward, direction, i.segment.distance, to));
 }
 
 void call_plane_shadows(plane_shadows_input i, out plane_shadows_output o)

@@ -3,8 +3,9 @@
 
 #include "function_table.h"
 
-/* Parts of the cases, of generate_rays.c. */
+/* Parts of the cases. */
 struct PackedSphere random_sphere(struct random *random);
+RayRecord ray_at_sphere(struct random *random, struct PackedSphere *sphere); /* which is surface 0 */
 struct PackedPlane random_plane(struct random *random);
 
 /* The point of the plane that is nearest to the origin. */

@@ -1,13 +1,5 @@
-/* Rays at spheres and planes. */
+/* Rays at planes, and at all. */
 #include "generate.h"
-
-struct PackedSphere random_sphere(struct random *random)
-{
-    struct vec3 center = round_vector(random_point(random));
-    float radius =
-        round_number(random_bool(random) ? random_scale(random, 1e-4, 1e4) : random_scale(random, 0.02, 0.5));
-    return (struct PackedSphere){.center_radius = {center.x, center.y, center.z, radius}};
-}
 
 struct PackedPlane random_plane(struct random *random)
 {
@@ -36,83 +28,6 @@ struct dvec3 random_in_plane(struct random *random, const struct PackedPlane *pl
                              double distance)
 {
     return random_aside(random, dvec3_unit(widen(vector_of(plane->normal_offset))), start, distance);
-}
-
-/* Rounds the sphere's numbers to a few binary digits. */
-static void snap(struct PackedSphere *sphere, struct dvec3 *center, double *radius)
-{
-    *center = (struct dvec3){rint(center->x * 64) / 64, rint(center->y * 64) / 64, rint(center->z * 64) / 64};
-    *radius = exp2(rint(fmax(log2(*radius), -6)));
-    struct vec3 rounded = round_vector(*center);
-    sphere->center_radius = (layout_vec4){rounded.x, rounded.y, rounded.z, (float)*radius};
-}
-
-/* A ray to, from, along, beside or within the sphere, which is surface 0. */
-static RayRecord ray_at_sphere(struct random *random, struct PackedSphere *sphere)
-{
-    struct dvec3 center = widen(vector_of(sphere->center_radius)), normal = random_direction(random);
-    double radius = (double)sphere->center_radius.w;
-    struct dvec3 on_sphere = dvec3_along(center, radius, normal), tangent = random_tangent(random, normal);
-    struct dvec3 origin, direction = random_direction(random);
-    RayRecord ray = {.surface = NO_SURFACE};
-    switch (random_below(random, 20)) {
-    case 0: /* leaves it */
-    case 1:
-        origin = on_sphere;
-        ray.surface = 0;
-        break;
-    case 2: /* leaves it and grazes */
-        origin = on_sphere;
-        direction = dvec3_unit(dvec3_along(tangent, random_signed(random, 1e-9, 1e-2), normal));
-        ray.surface = 0;
-        break;
-    case 3: /* tangent but for rounding */
-    case 4:
-        origin = dvec3_along(on_sphere, -radius * random_scale(random, 1e-3, 1e3), tangent);
-        direction = tangent;
-        break;
-    case 5: /* exactly tangent: all numbers have few digits */
-        snap(sphere, &center, &radius);
-        direction = random_axis(random);
-        origin = dvec3_along(center, -4 * radius, direction);
-        origin = dvec3_along(origin, radius, (struct dvec3){direction.y, direction.z, direction.x});
-        break;
-    case 6: /* from inside */
-    case 7:
-        origin = dvec3_along(center, radius * random_between(random, 0, 1), normal);
-        sphere->tags.HOLDS_RAYS = 1;
-        break;
-    case 8: /* from the centre */
-        origin = center;
-        sphere->tags.HOLDS_RAYS = 1;
-        break;
-    case 9: /* from a point on it that belongs to another surface */
-        origin = on_sphere;
-        ray.surface = 7;
-        sphere->tags.HOLDS_RAYS = random_bool(random);
-        break;
-    case 10: /* along an axis, through the centre */
-        direction = random_axis(random);
-        origin = dvec3_along(center, -radius * random_between(random, 1, 10), direction);
-        break;
-    case 11: /* from far away */
-        origin = random_away(random, center, radius * random_scale(random, 1e2, 1e6));
-        direction = dvec3_unit(
-            dvec3_subtract(dvec3_along(center, radius * random_between(random, 0, 1.1), normal), origin));
-        break;
-    case 12: /* away from it */
-        origin = dvec3_along(center, radius * random_scale(random, 1, 10), normal);
-        direction = normal;
-        break;
-    default:
-        origin = random_point(random);
-        direction = dvec3_unit(
-            dvec3_subtract(dvec3_along(center, radius * random_between(random, 0, 1.2), normal), origin));
-    }
-    ray.inward = ray.surface == 0 && dvec3_dot(direction, normal) < 0;
-    ray.origin = round_vector(origin);
-    ray.direction = round_vector(direction);
-    return ray;
 }
 
 static RayRecord ray_at_plane(struct random *random, const struct PackedPlane *plane, int surface)
@@ -155,22 +70,6 @@ static RayRecord ray_at_plane(struct random *random, const struct PackedPlane *p
     ray.origin = round_vector(origin);
     ray.direction = round_vector(direction);
     return ray;
-}
-
-/* Takes back what the specialised pipeline does not know. */
-static void keep_promises(const struct random *random, struct PackedSphere *sphere, RayRecord *ray)
-{
-    if (random->promises.never_entered) {
-        sphere->tags.HOLDS_RAYS = sphere->tags.HOLDS_LIGHTS = 0;
-        ray->inward = false;
-    }
-}
-
-void generate_meet_sphere(struct random *random, meet_sphere_input *input)
-{
-    input->sphere = random_sphere(random);
-    input->ray = ray_at_sphere(random, &input->sphere);
-    keep_promises(random, &input->sphere, &input->ray);
 }
 
 void generate_meet_plane(struct random *random, meet_plane_input *input)

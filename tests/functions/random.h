@@ -11,6 +11,7 @@
 
 /* What the drawn scenes do not hold, so that a pipeline specialised to such scenes can be tested on them. */
 struct promises {
+    bool giant;         /* spheres are giants */
     bool never_entered; /* rays, shading points and lights are outside of spheres */
     bool opaque_planes; /* no plane is transparent */
     int axis;           /* planes' normals are along x 1, y 2, z 3, anything 0 */

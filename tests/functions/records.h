@@ -80,11 +80,8 @@ STRUCT(MatteRecord, MATTE)
 #define INPUT_sobol_point(MEMBER) MEMBER(int, seed) MEMBER(int, index)
 #define OUTPUT_sobol_point(MEMBER) MEMBER(float, u) MEMBER(float, v)
 
-#define INPUT_meet_sphere(MEMBER) MEMBER(RayRecord, ray) MEMBER(Sphere, sphere)
+#define INPUT_meet_sphere(MEMBER) MEMBER(RayRecord, ray) MEMBER(Sphere, sphere) MEMBER(float, curvature)
 #define OUTPUT_meet_sphere(MEMBER) MEMBER(HitRecord, hit)
-
-#define INPUT_meet_giant(MEMBER) MEMBER(RayRecord, ray) MEMBER(Sphere, giant) MEMBER(float, curvature)
-#define OUTPUT_meet_giant(MEMBER) MEMBER(HitRecord, hit)
 
 #define INPUT_meet_plane(MEMBER) MEMBER(RayRecord, ray) MEMBER(Plane, plane)
 #define OUTPUT_meet_plane(MEMBER) MEMBER(HitRecord, hit)
@@ -94,12 +91,9 @@ STRUCT(MatteRecord, MATTE)
     MEMBER(Sphere, sphere_0) MEMBER(Sphere, sphere_1) MEMBER(Plane, plane_0) MEMBER(Plane, plane_1)
 #define OUTPUT_nearest_hit(MEMBER) MEMBER(int, surface) MEMBER(int, file_order) MEMBER(HitRecord, hit)
 
-#define INPUT_sphere_shadows(MEMBER) MEMBER(SegmentRecord, segment) MEMBER(Sphere, sphere)
+#define INPUT_sphere_shadows(MEMBER)                                                                         \
+    MEMBER(SegmentRecord, segment) MEMBER(Sphere, sphere) MEMBER(float, curvature)
 #define OUTPUT_sphere_shadows(MEMBER) MEMBER(int, shadows)
-
-#define INPUT_giant_shadows(MEMBER)                                                                          \
-    MEMBER(SegmentRecord, segment) MEMBER(Sphere, giant) MEMBER(float, curvature)
-#define OUTPUT_giant_shadows(MEMBER) MEMBER(int, shadows)
 
 #define INPUT_plane_shadows(MEMBER) MEMBER(SegmentRecord, segment) MEMBER(Plane, plane)
 #define OUTPUT_plane_shadows(MEMBER) MEMBER(int, shadows)
@@ -130,8 +124,9 @@ STRUCT(MatteRecord, MATTE)
     DO(unit)                                                                                                 \
     DO(hash)                                                                                                 \
     DO(sobol_point)                                                                                          \
-    DO(meet_sphere) DO(meet_giant) DO(meet_plane) DO(nearest_hit) DO(sphere_shadows) DO(giant_shadows)       \
-        DO(plane_shadows) DO(reflect) DO(refract) DO(oren_nayar) DO(point_light) DO(quad_light)
+    DO(meet_sphere)                                                                                          \
+    DO(meet_plane) DO(nearest_hit) DO(sphere_shadows) DO(plane_shadows) DO(reflect) DO(refract)              \
+        DO(oren_nayar) DO(point_light) DO(quad_light)
 
 #define MAKE_RECORDS(name)                                                                                   \
     STRUCT(name##_input, INPUT_##name)                                                                       \

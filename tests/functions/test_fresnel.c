@@ -1,11 +1,6 @@
 /* The C reference's Fresnel reflectance at float, against closed forms, a table and the textbook's formulas.
  */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "../cmocka_test.h"
 
 #include "dielectric.h"
 #include "packed_glass.h"

@@ -1,11 +1,6 @@
 /* The C reference's float directions against GLM's reflect and refract in double, on a million random pairs
  * of unit vectors. Errors are in units in the last place of 1, 2^-23, a component. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "../cmocka_test.h"
 
 #include "dielectric.h"
 #include "glm_oracle.h"

@@ -1,14 +1,10 @@
 /* The device with its hierarchy of boxes against the reference that tries all spheres, on purpose where
  * roundings decide; and with another hierarchy over the same spheres: the same in every bit. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "../cmocka_test.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "hostile_spheres.h"
 #include "needy_ray.h"

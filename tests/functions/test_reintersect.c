@@ -1,11 +1,6 @@
 /* Rays that leave a surface, as pbrt-v4's Reintersect tests them: from spheres of radii over eight decades
  * and from planes, outward they never meet it again, and inward they always end on the sphere's far side. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "../cmocka_test.h"
 
 #include "geometry.h"
 #include "random.h"

@@ -1,12 +1,8 @@
 /* The reference with its tree of spheres against the reference that tries all of them, on purpose where
  * roundings decide: the same in every bit. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
+#include "../cmocka_test.h"
 
-#include <cmocka.h>
+#include <string.h>
 
 #include "geometry.h"
 #include "hostile_spheres.h"

@@ -1,11 +1,6 @@
 /* The error analysis with the reference's tree of spheres against that of all of them: what the tree leaves
  * out has a margin of 1 at least. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "../cmocka_test.h"
 
 #include "hostile_spheres.h"
 #include "light_margin.h"
@@ -67,10 +62,9 @@ static void test_shadows(void **state)
             hostile_scene_blur(&random, &scene);
             struct segment segment = hostile_segment(&random, &scene);
             bool hides, expected;
-            double margin =
-                shadow_margin(&scene.with_tree, &segment, scene.e_origin, scene.e_direction, &hides);
-            double expected_margin =
-                shadow_margin(&scene.without, &segment, scene.e_origin, scene.e_direction, &expected);
+            struct ray_error error = {scene.e_origin, scene.e_direction};
+            double margin = shadow_margin(&scene.with_tree, &segment, error, &hides);
+            double expected_margin = shadow_margin(&scene.without, &segment, error, &expected);
             assert_int_equal(hides, expected);
             if (hides)
                 assert_true(margin == expected_margin);

@@ -279,22 +279,20 @@ static void fail(const struct sketch *sketch, const char *what, unsigned x, unsi
 
 static void judge(const struct packed_scene *packed, const struct sketch *sketch)
 {
-    const struct reference_window window = {0, 0, SIDE, SIDE};
-    double rgb[3 * PIXELS], charges[PIXELS];
     float rounded[3 * PIXELS];
     uint32_t signatures[PIXELS];
-    struct reference_picture picture = {.rgb = rgb, .signatures = signatures, .charges = charges};
     struct reference_explanation explanations[PIXELS];
     struct judgement judgement;
-    reference_render_float(packed, window, 1, &picture);
-    reference_explain_double(packed, window, 1, explanations);
     for (unsigned i = 0; i < PIXELS; ++i) {
+        const int x = (int)(i % SIDE), y = (int)(i / SIDE);
+        const struct reference_pixel pixel = reference_trace_float(packed, x, y, NULL);
         const struct reference_explanation *exact = &explanations[i];
-        bool finite = isfinite(charges[i]) && exact->margin >= 0;
+        explanations[i] = reference_explain_double(packed, x, y, NULL);
+        signatures[i] = pixel.signature;
+        bool finite = isfinite(pixel.charges) && exact->margin >= 0;
         for (unsigned c = 0; c < 3; ++c) {
-            rounded[3 * i + c] = (float)rgb[3 * i + c];
-            finite =
-                finite && isfinite(rgb[3 * i + c]) && isfinite(exact->rgb[c]) && isfinite(exact->bound[c]);
+            rounded[3 * i + c] = (float)pixel.rgb[c];
+            finite = finite && isfinite(pixel.rgb[c]) && isfinite(exact->rgb[c]) && isfinite(exact->bound[c]);
         }
         if (!finite)
             fail(sketch, "not finite", i % SIDE, i / SIDE);
@@ -317,7 +315,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                                               .max_bounces = scene.max_bounces,
                                               .samples = sketch.samples,
                                               .light_samples = scene.light_samples};
-    if (pack_scene(&scene, &settings, &packed) == STATUS_DONE) {
+    if (pack_scene(NULL, &scene, &settings, &packed) == STATUS_DONE) {
         judge(&packed, &sketch);
         pack_destroy(&packed);
     }

@@ -58,17 +58,14 @@ double share_of_claim(const double rgb[3], const Vector &exact, const double bou
 void check_pixel(const char *path, const packed_scene &scene, const Oracle &oracle, int x, int y,
                  Tally &tally)
 {
-    const reference_window window = {x, y, 1, 1};
     const OraclePixel exact = oracle.trace(x, y);
-    reference_explanation explanation;
+    const reference_explanation explanation = reference_explain_quad(&scene, x, y, nullptr);
     double rgb[VALUES][3];
-    reference_explain_quad(&scene, window, 1, &explanation);
     std::copy(explanation.rgb, explanation.rgb + 3, rgb[JUDGED_BY]);
-    void (*const renderers[])(const packed_scene *, reference_window, int, reference_picture *) = {
-        reference_render_float, reference_render_double, reference_render_quad};
+    reference_tracer *const tracers[] = {reference_trace_float, reference_trace_double, reference_trace_quad};
     for (int i = IN_FLOAT; i <= IN_QUAD; ++i) {
-        reference_picture picture = {rgb[i], nullptr, nullptr, {}};
-        renderers[i](&scene, window, 1, &picture);
+        const reference_pixel pixel = tracers[i](&scene, x, y, nullptr);
+        std::copy(pixel.rgb, pixel.rgb + 3, rgb[i]);
     }
 
     tally.close += !(explanation.margin >= 1);
@@ -97,18 +94,18 @@ void check_pixel(const char *path, const packed_scene &scene, const Oracle &orac
  * that it can. */
 std::vector<int> choose_pixels(const packed_scene &scene, int count)
 {
-    std::vector<reference_explanation> explanations(width * height);
-    reference_explain_double(&scene, {0, 0, width, height}, 1, explanations.data());
+    std::vector<double> margins;
     std::vector<int> pixels;
     unsigned random = 1;
     for (int i = 0; i < width * height; ++i) {
         random = random * 1664525 + 1013904223; /* Knuth's, Numerical Recipes' ranqd1 */
+        margins.push_back(reference_explain_double(&scene, i % width, i / width, nullptr).margin);
         pixels.push_back(i);
         std::swap(pixels[(size_t)i], pixels[(random >> 8) % pixels.size()]);
     }
     auto put_closest_first = [&](int from, bool certain) {
         auto rank = [&](int pixel) {
-            const double margin = explanations[(size_t)pixel].margin;
+            const double margin = margins[(size_t)pixel];
             return certain && margin < 1 ? INFINITY : margin;
         };
         std::stable_sort(pixels.begin() + from, pixels.end(),
@@ -152,7 +149,7 @@ bool check_scene(const char *path, int count)
     settings.samples = 1;
     settings.light_samples = std::min(scene.light_samples, most_light_samples);
     packed_scene packed;
-    bool right = pack_scene(&scene, &settings, &packed) == STATUS_DONE;
+    bool right = pack_scene(NULL, &scene, &settings, &packed) == STATUS_DONE;
     if (right) {
         right = check_packed(path, packed, count);
         pack_destroy(&packed);

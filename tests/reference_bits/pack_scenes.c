@@ -31,7 +31,7 @@ static bool pack(FILE *file, const char *path, struct picture_settings settings)
     struct packed_scene packed;
     if (scene_read(path, &scene) != STATUS_DONE)
         return false;
-    bool packs = pack_scene(&scene, &settings, &packed) == STATUS_DONE;
+    bool packs = pack_scene(NULL, &scene, &settings, &packed) == STATUS_DONE;
     bool written = packs && write_scene(file, path, &packed);
     if (packs)
         pack_destroy(&packed);

@@ -29,31 +29,20 @@ static void *read_items(FILE *file, size_t size, int count)
     return items;
 }
 
-typedef void render_function(const struct packed_scene *, struct reference_window, int,
-                             struct reference_picture *);
-typedef void explain_function(const struct packed_scene *, struct reference_window, int,
-                              struct reference_explanation *);
-
-static void print_picture(const char *name, const char *precision, render_function *render,
+static void print_picture(const char *name, const char *precision, reference_tracer *trace,
                           const struct packed_scene *scene)
 {
-    size_t pixels = (size_t)scene->width * (size_t)scene->height;
-    struct reference_picture picture = {
-        .rgb = calloc(3 * pixels, sizeof *picture.rgb),
-        .signatures = calloc(pixels, sizeof *picture.signatures),
-        .charges = calloc(pixels, sizeof *picture.charges),
-    };
-    if (!picture.rgb || !picture.signatures || !picture.charges)
-        exit(EXIT_FAILURE);
-    render(scene, (struct reference_window){0, 0, scene->width, scene->height}, 2, &picture);
-    uint64_t hash = hash_bytes(hash_start, picture.rgb, 3 * pixels * sizeof *picture.rgb);
-    hash = hash_bytes(hash, picture.signatures, pixels * sizeof *picture.signatures);
-    hash = hash_bytes(hash, picture.charges, pixels * sizeof *picture.charges);
-    hash = hash_bytes(hash, &picture.rays, sizeof picture.rays);
+    struct reference_rays rays = {0};
+    uint64_t hash = hash_start;
+    for (int i = 0; i < scene->width * scene->height; ++i) {
+        struct reference_pixel pixel = trace(scene, i % scene->width, i / scene->width, NULL);
+        hash = hash_bytes(hash, pixel.rgb, sizeof pixel.rgb);
+        hash = hash_bytes(hash, &pixel.charges, sizeof pixel.charges);
+        hash = hash_bytes(hash, &pixel.signature, sizeof pixel.signature);
+        rays_add(&rays, pixel.rays);
+    }
+    hash = hash_bytes(hash, &rays, sizeof rays);
     printf("%s %s %016" PRIx64 "\n", name, precision, hash);
-    free(picture.charges);
-    free(picture.signatures);
-    free(picture.rgb);
 }
 
 /* x86-64 and aarch64 make NaN of opposite signs. */
@@ -62,24 +51,18 @@ static uint64_t hash_number(uint64_t hash, double number)
     return isnan(number) ? hash_bytes(hash, "nan", 3) : hash_bytes(hash, &number, sizeof number);
 }
 
-static void print_explanation(const char *name, const char *precision, explain_function *explain,
+static void print_explanation(const char *name, const char *precision, reference_explainer *explain,
                               const struct packed_scene *scene)
 {
-    size_t pixels = (size_t)scene->width * (size_t)scene->height;
-    struct reference_explanation *explanations = calloc(pixels, sizeof *explanations);
-    if (!explanations)
-        exit(EXIT_FAILURE);
-    explain(scene, (struct reference_window){0, 0, scene->width, scene->height}, 2, explanations);
     uint64_t hash = hash_start;
-    for (size_t i = 0; i < pixels; ++i) {
-        const struct reference_explanation *explanation = &explanations[i];
+    for (int i = 0; i < scene->width * scene->height; ++i) {
+        struct reference_explanation pixel = explain(scene, i % scene->width, i / scene->width, NULL);
         for (int c = 0; c < 3; ++c)
-            hash = hash_number(hash_number(hash, explanation->rgb[c]), explanation->bound[c]);
-        hash = hash_number(hash, explanation->margin);
-        hash = hash_bytes(hash, &explanation->signature, sizeof explanation->signature);
+            hash = hash_number(hash_number(hash, pixel.rgb[c]), pixel.bound[c]);
+        hash = hash_number(hash, pixel.margin);
+        hash = hash_bytes(hash, &pixel.signature, sizeof pixel.signature);
     }
     printf("%s explained by %s %016" PRIx64 "\n", name, precision, hash);
-    free(explanations);
 }
 
 int main(int count, char **arguments)
@@ -96,9 +79,9 @@ int main(int count, char **arguments)
         scene->point_lights = read_items(file, sizeof *scene->point_lights, scene->point_light_count);
         scene->quad_lights = read_items(file, sizeof *scene->quad_lights, scene->quad_light_count);
         scene->tree = NULL;
-        print_picture(bytes.name, "float", reference_render_float, scene);
-        print_picture(bytes.name, "double", reference_render_double, scene);
-        print_picture(bytes.name, "quad", reference_render_quad, scene);
+        print_picture(bytes.name, "float", reference_trace_float, scene);
+        print_picture(bytes.name, "double", reference_trace_double, scene);
+        print_picture(bytes.name, "quad", reference_trace_quad, scene);
         print_explanation(bytes.name, "double", reference_explain_double, scene);
         print_explanation(bytes.name, "quad", reference_explain_quad, scene);
         free(scene->spheres);
