@@ -14,7 +14,7 @@ on_a_terminal() {
 
 # A tile of many samples, and one in which pixels take long: the bar is there before the tile is.
 inside_tiles() {
-    for options in "$figure --size 40x30 --samples 4096" "$SOURCE_DIR/scenes/hard/diamond.yaml --size 120x80 --max-bounces 64"; do
+    for options in "$figure --size 40x30 --samples 16384" "$SOURCE_DIR/scenes/hard/diamond.yaml --size 60x40 --samples 8 --max-bounces 64"; do
         script -qec "$VKWHITTED render $options" typescript >/dev/null </dev/null || fail 'exit status'
         tr '\r' '\n' <typescript | grep -aoE 'rendering \[#* *\] +[0-9]+ %' | grep -aoE '[0-9]+ %' | sort -u >percents
         [ "$(grep -vc -e '^0 %' -e '^100 %' percents)" -ge 2 ] || fail "the bar stands still: $(tr '\n' ' ' <percents)"
