@@ -55,7 +55,8 @@ static void test_message_wipes_the_bar(void **state)
     close(terminal);
 }
 
-/* What the progress says on standard error, which is no terminal, after so many seconds. */
+/* What the progress says on standard error, which is no terminal, so many seconds after its first advance,
+ * before which it took long. */
 static void say(uint64_t begun, uint64_t done, double seconds, bool quiet, char text[256])
 {
     int ends[2], standard_error = dup(STDERR_FILENO);
@@ -63,8 +64,10 @@ static void say(uint64_t begun, uint64_t done, double seconds, bool quiet, char 
     dup2(ends[1], STDERR_FILENO);
     struct progress progress;
     progress_start(&progress, "testing", 1000, quiet);
-    progress.start_ms -= seconds * 1000;
+    progress.start_ms -= 5000;
     progress_begin(&progress, begun);
+    progress_advance(&progress, 1);
+    progress.first_ms -= seconds * 1000;
     progress_advance(&progress, done);
     progress_advance(&progress, 0);
     progress_end(&progress);

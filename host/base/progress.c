@@ -47,8 +47,9 @@ static const char *print_duration(double seconds, char text[static 32])
 /* Says once that it will take more than a minute, as soon as that can be known. */
 static void announce(struct progress *progress, double elapsed_ms)
 {
-    const bool guesses = progress->done > 0;
-    const double share = (double)(guesses ? progress->done : progress->begun) / (double)progress->total;
+    const bool guesses = progress->done > progress->done_first;
+    const uint64_t amount = guesses ? progress->done - progress->done_first : progress->begun;
+    const double share = (double)amount / (double)progress->total;
     const double seconds = share > 0 ? elapsed_ms / share / 1000 : 0;
     if (!progress->announces || elapsed_ms < 1000 || !(guesses || seconds > 60))
         return;
@@ -71,13 +72,17 @@ void progress_begin(struct progress *progress, uint64_t amount)
 void progress_advance(struct progress *progress, uint64_t amount)
 {
     progress->done = amount < progress->total - progress->done ? progress->done + amount : progress->total;
-    double elapsed_ms = clock_ms() - progress->start_ms;
-    announce(progress, elapsed_ms);
-    if (!progress->enabled || elapsed_ms < 500 || progress->done == 0)
+    const double now_ms = clock_ms();
+    if (progress->first_ms == 0) {
+        progress->first_ms = now_ms;
+        progress->done_first = progress->done;
+    }
+    announce(progress, now_ms - progress->first_ms);
+    if (!progress->enabled || now_ms - progress->start_ms < 500 || progress->done == 0)
         return;
     char text[32];
     double fraction = (double)progress->done / (double)progress->total;
-    double left_ms = elapsed_ms * (1 - fraction) / fraction;
+    double left_ms = (now_ms - progress->start_ms) * (1 - fraction) / fraction;
     int filled = (int)(fraction * (double)BAR_WIDTH);
     dprintf(STDERR_FILENO, "\r%s [%.*s%*s] %3.0f %%  %s left %s", progress->label, filled,
             "########################################", BAR_WIDTH - filled, "", fraction * 100,

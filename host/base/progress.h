@@ -5,11 +5,12 @@
 #include <stdint.h>
 
 /* A bar on standard error, if that is a terminal and the work takes more than half a second; and a notice,
- * wherever it is, if after a second the work looks like taking more than a minute. */
+ * wherever it is, if after a second of advances the work looks like taking more than a minute. What comes
+ * before the first of them, a shader's compilation perhaps, tells nothing of what is to come. */
 struct progress {
     const char *label;
-    uint64_t done, begun, total;
-    double start_ms;
+    uint64_t done, done_first, begun, total;
+    double start_ms, first_ms; /* of the first advance; 0: there was none */
     bool enabled, announces;
 };
 
