@@ -69,14 +69,7 @@ void dispatcher_destroy(struct dispatcher *dispatcher)
     *dispatcher = (struct dispatcher){0};
 }
 
-/* Groups that cover so many pixels. */
-static uint32_t groups_x(const struct dispatch_size *size, uint32_t width)
-{
-    const uint32_t columns = size->group_width * size->columns;
-    return (width + columns - 1) / columns;
-}
-
-static uint32_t groups_y(const struct dispatch_size *size, uint32_t height)
+static uint32_t groups_down(const struct dispatch_size *size, uint32_t height)
 {
     return (height + size->group_height - 1) / size->group_height;
 }
@@ -86,7 +79,7 @@ static uint32_t groups_y(const struct dispatch_size *size, uint32_t height)
 static uint32_t dealt_threads(const struct dispatch_size *size, uint32_t groups)
 {
     uint32_t threads = size->threads;
-    while (threads > 1 && (threads - groups % threads) % threads > groups / 64)
+    while (threads > 1 && (threads - groups % threads) % threads > most_excess(groups))
         --threads;
     return threads;
 }
@@ -105,9 +98,9 @@ static enum status create_buffers(const struct dispatcher *dispatcher, uint32_t 
         [EVENTS] = {"events", BUFFER_READBACK},
     };
     const struct dispatch_size *size = &dispatcher->size;
-    const uint32_t groups = groups_y(size, tile_height); /* and an excess, see dealt_threads() */
-    const VkDeviceSize invocations = (VkDeviceSize)groups_x(size, tile_width) * size->group_width *
-                                     (groups + groups / 64) * size->group_height;
+    const uint32_t groups = groups_down(size, tile_height);
+    const VkDeviceSize invocations = (VkDeviceSize)groups_across(size, tile_width) * size->group_width *
+                                     (groups + most_excess(groups)) * size->group_height;
     const VkDeviceSize doubled = value_size(&dispatcher->options) / sizeof(float);
     const VkDeviceSize picture_bytes = (VkDeviceSize)tile_width * tile_height * pixel_size(dispatcher);
     const size_t event_bytes = sizeof(struct EventHead) + EVENT_VALUES * value_size(&dispatcher->options);
@@ -168,14 +161,15 @@ void dispatch_frame_destroy(const struct dispatcher *dispatcher, struct dispatch
 enum status dispatch_frame_start(const struct dispatcher *dispatcher, struct dispatch_frame *frame)
 {
     const struct dispatch_size *size = &dispatcher->size;
-    const uint32_t groups = groups_y(size, frame->portion.tile_height), threads = dealt_threads(size, groups);
+    const uint32_t groups = groups_down(size, frame->portion.tile_height),
+                   threads = dealt_threads(size, groups);
     frame->portion.threads = threads;
     if (size->resumable)
         *(uint32_t *)frame->buffers[OUTCOME].mapped = 0;
     enum status status =
         pass_frame_submit(&frame->frame, &(struct pass_dispatch){
                                              .push_constants = &frame->portion,
-                                             .groups_x = groups_x(size, frame->portion.tile_width),
+                                             .groups_x = groups_across(size, frame->portion.tile_width),
                                              .groups_y = (groups + threads - 1) / threads * threads,
                                          });
     frame->under_way = status == STATUS_DONE;

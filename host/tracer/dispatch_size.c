@@ -112,7 +112,8 @@ static void choose_tile(const struct vulkan_context *context, const struct packe
     size->tile_pixels = (unsigned)at_least_1(pixels);
     const uint64_t saved_bytes = size->saved_reals * SAVED_REAL_BYTES * (value_size / sizeof(float));
     const uint64_t invocations = limits->maxStorageBufferRange / at_least_1(saved_bytes);
-    size->tile_invocations = (unsigned)smaller(invocations, MOST_INVOCATIONS);
+    const uint64_t groups = smaller(invocations, MOST_INVOCATIONS) / (size->group_width * size->group_height);
+    size->tile_groups = (unsigned)at_least_1(groups - most_excess((uint32_t)groups));
 }
 
 struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,

@@ -24,11 +24,6 @@ static unsigned smaller(unsigned a, unsigned b)
     return a < b ? a : b;
 }
 
-static unsigned larger(unsigned a, unsigned b)
-{
-    return a > b ? a : b;
-}
-
 void tiles_destroy(struct tracer *tracer)
 {
     for (unsigned i = 0; i < tracer->frame_count; ++i)
@@ -37,18 +32,15 @@ void tiles_destroy(struct tracer *tracer)
 }
 
 /* Makes the frames that a window needs, or keeps those there are. A tile is as wide as the window, if it can
- * have a row of groups then. Rows of groups have an excess, see dispatch.c. */
+ * have a row of groups then. */
 static enum status require_frames(struct tracer *tracer, const struct window *window)
 {
     const struct dispatch_size *size = &tracer->dispatcher.size;
     const unsigned rows = smaller(size->group_height, window->height);
-    const unsigned columns = size->group_width * size->columns;
-    const unsigned groups =
-        larger(1, size->tile_invocations / 65 * 64 / (size->group_width * size->group_height));
     unsigned width = smaller(window->width, size->tile_pixels / smaller(rows, size->tile_pixels));
-    width = smaller(width, groups * columns);
+    width = smaller(width, size->tile_groups * size->group_width * size->columns);
     unsigned height = smaller(window->height, size->tile_pixels / width);
-    height = smaller(height, groups / ((width + columns - 1) / columns) * size->group_height);
+    height = smaller(height, size->tile_groups / groups_across(size, width) * size->group_height);
     unsigned count = width < window->width || height < window->height ? FRAMES : 1;
     if (tracer->frame_count >= count && tracer->width >= width && tracer->height >= height)
         return STATUS_DONE;
