@@ -33,7 +33,7 @@ add_cli_tests(output formats same_bits_on_both_backends exr_metadata transfer un
 add_cli_tests(device no_such_device device_by_name no_devices_at_all no_validation_layer
               devices)
 if(VKWHITTED_TESTS STREQUAL "all")
-    add_cli_tests(pretend failing_calls texel_limit agreement_as_graphics_card dispatch_sizes agreement_with_long_vectors)
+    add_cli_tests(pretend texel_limit agreement_as_graphics_card dispatch_sizes agreement_with_long_vectors)
 endif()
 add_cli_tests(check agreement heatmap json junit)
 add_cli_tests(picture right wrong_formula wrong_pixel refusals)
@@ -52,7 +52,7 @@ if(VKWHITTED_TESTS STREQUAL "all")
     add_cli_tests(interrupt render_on_cpu render_on_device check bench pixel watch packing ignored)
     add_cli_tests(hostile eaten_inputs closed_streams results_at_the_end limits large_files)
 endif()
-add_cli_tests(watch broken_and_repaired spheres_from_a_file checked_in_the_background device_lost)
+add_cli_tests(watch broken_and_repaired spheres_from_a_file checked_in_the_background failing_calls)
 add_cli_tests(progress on_a_terminal)
 if(VKWHITTED_TESTS STREQUAL "all")
     add_cli_tests(watch scene_edits_keep_the_pipeline missing_includes camera_among_many_spheres shader_edits broken_at_the_start

@@ -1,17 +1,18 @@
 /* A Vulkan layer that makes a device look like another, and fail.
+ * Under faults/fail_calls.c the calls with a result are calls that fail: out of memory, or the device is
+ * lost.
  *
  * PRETEND_GPU=1: a discrete graphics card: no memory that the host caches, 64 KiB of uniforms, 128 bytes of
  * push constants, subgroups of 1 without operations, another driver.
  *
  * PRETEND_TEXELS=N: texel buffers have at most so many elements.
  *
- * PRETEND_FAIL=CALL:N:CODE: the N-th call of vkQueueSubmit, vkGetFenceStatus, vkAllocateMemory or
- * vkCreateComputePipelines returns CODE instead; once.
- *
- * PRETEND_AFTER=FILE: calls count from when there is such a file.
+ * PRETEND_FAIL=FILE: while there is such a file, with "N CODE" in it, calls with a result are counted; the
+ * N-th returns CODE instead, and the file is removed.
  *
  * PRETEND_LOG=FILE: gets a line "X Y" for each dispatch: its groups. */
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,33 +23,39 @@
 /* What is below the layer, of one instance with one device at a time. The loader tells it while they are
  * made; later it would tell the layer's own functions. */
 static VkInstance the_instance;
+static VkDevice the_device;
 static PFN_vkGetInstanceProcAddr next_instance_function;
 static PFN_vkGetDeviceProcAddr next_device_function;
 static struct {
     PFN_vkGetPhysicalDeviceProperties get_properties;
     PFN_vkGetPhysicalDeviceProperties2 get_properties_2;
     PFN_vkGetPhysicalDeviceMemoryProperties get_memory;
-    PFN_vkQueueSubmit queue_submit;
-    PFN_vkGetFenceStatus get_fence_status;
     PFN_vkDeviceWaitIdle wait_idle;
-    PFN_vkAllocateMemory allocate_memory;
-    PFN_vkCreateComputePipelines create_pipelines;
     PFN_vkCmdDispatch dispatch;
 } next;
 
-/* What this call of the function is to return; VK_SUCCESS: what the driver says. */
-static VkResult planned_failure(const char *name)
+/* Of faults/fail_calls.c, where that is loaded. */
+bool fails_in_vulkan(void) __attribute__((weak));
+
+/* What this call is to return; VK_SUCCESS: what the driver says. */
+static VkResult planned_failure(bool may_lose_device)
 {
     static int calls;
-    char function[64];
-    int turn, code;
-    const char *plan = getenv("PRETEND_FAIL");
-    if (!plan || sscanf(plan, "%63[^:]:%d:%d", function, &turn, &code) != 3 || strcmp(function, name) != 0)
+    int turn = 0, code = VK_SUCCESS;
+    if (fails_in_vulkan && fails_in_vulkan())
+        return may_lose_device ? VK_ERROR_DEVICE_LOST : VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    const char *path = getenv("PRETEND_FAIL");
+    FILE *plan = path ? fopen(path, "r") : NULL;
+    if (!plan) {
+        calls = 0;
         return VK_SUCCESS;
-    const char *after = getenv("PRETEND_AFTER");
-    if (after && access(after, F_OK) != 0)
-        return VK_SUCCESS;
-    return ++calls == turn ? (VkResult)code : VK_SUCCESS;
+    }
+    if (fscanf(plan, "%d %d", &turn, &code) != 2 || ++calls != turn)
+        code = VK_SUCCESS;
+    fclose(plan);
+    if (code != VK_SUCCESS)
+        unlink(path);
+    return (VkResult)code;
 }
 
 static bool pretends_gpu(void)
@@ -99,38 +106,49 @@ static VKAPI_ATTR void VKAPI_CALL get_memory(VkPhysicalDevice device,
         memory->memoryTypes[i].propertyFlags &= ~(VkFlags)VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 }
 
-static VKAPI_ATTR VkResult VKAPI_CALL queue_submit(VkQueue queue, uint32_t count, const VkSubmitInfo *submits,
-                                                   VkFence fence)
-{
-    VkResult result = planned_failure("vkQueueSubmit");
-    return result != VK_SUCCESS ? result : next.queue_submit(queue, count, submits, fence);
-}
+/* The functions with a result that the program calls: X(name, may lose the device). Their arguments are
+ * handles, pointers and integers, which 64-bit processors pass on as words whatever they mean. */
+#define FUNCTIONS(X)                                                                                         \
+    X(vkEnumeratePhysicalDevices, false)                                                                     \
+    X(vkAllocateCommandBuffers, false)                                                                       \
+    X(vkAllocateDescriptorSets, false)                                                                       \
+    X(vkAllocateMemory, false)                                                                               \
+    X(vkBeginCommandBuffer, false)                                                                           \
+    X(vkBindBufferMemory, false)                                                                             \
+    X(vkCreateBuffer, false)                                                                                 \
+    X(vkCreateBufferView, false)                                                                             \
+    X(vkCreateCommandPool, false)                                                                            \
+    X(vkCreateComputePipelines, false)                                                                       \
+    X(vkCreateDescriptorPool, false)                                                                         \
+    X(vkCreateDescriptorSetLayout, false)                                                                    \
+    X(vkCreateFence, false)                                                                                  \
+    X(vkCreatePipelineLayout, false)                                                                         \
+    X(vkCreateQueryPool, false)                                                                              \
+    X(vkCreateShaderModule, false)                                                                           \
+    X(vkEndCommandBuffer, false)                                                                             \
+    X(vkGetFenceStatus, true)                                                                                \
+    X(vkGetQueryPoolResults, true)                                                                           \
+    X(vkMapMemory, false)                                                                                    \
+    X(vkQueueSubmit, true)                                                                                   \
+    X(vkResetFences, false)
 
-static VKAPI_ATTR VkResult VKAPI_CALL get_fence_status(VkDevice device, VkFence fence)
-{
-    VkResult result = planned_failure("vkGetFenceStatus");
-    if (result != VK_SUCCESS) /* a driver that has lost a device is no longer at work */
-        next.wait_idle(device);
-    return result != VK_SUCCESS ? result : next.get_fence_status(device, fence);
-}
-
-static VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkMemoryAllocateInfo *info,
-                                                      const VkAllocationCallbacks *allocator,
-                                                      VkDeviceMemory *memory)
-{
-    VkResult result = planned_failure("vkAllocateMemory");
-    return result != VK_SUCCESS ? result : next.allocate_memory(device, info, allocator, memory);
-}
-
-static VKAPI_ATTR VkResult VKAPI_CALL create_pipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
-                                                       const VkComputePipelineCreateInfo *infos,
-                                                       const VkAllocationCallbacks *allocator,
-                                                       VkPipeline *pipelines)
-{
-    VkResult result = planned_failure("vkCreateComputePipelines");
-    return result != VK_SUCCESS ? result
-                                : next.create_pipelines(device, cache, count, infos, allocator, pipelines);
-}
+typedef uintptr_t word;
+typedef VkResult (*function_of_words)(word, word, word, word, word, word, word, word);
+/* What may lose the device is done, and the device at rest, before it fails. That a fence is not ready is no
+ * call. */
+#define DEFINE(name, may_lose_device)                                                                        \
+    static PFN_vkVoidFunction next_##name;                                                                   \
+    static VKAPI_ATTR VkResult VKAPI_CALL pretended_##name(word a, word b, word c, word d, word e, word f,   \
+                                                           word g, word h)                                   \
+    {                                                                                                        \
+        const function_of_words function = (function_of_words)next_##name;                                   \
+        const VkResult result = may_lose_device ? function(a, b, c, d, e, f, g, h) : VK_SUCCESS;             \
+        const VkResult failure = result == VK_SUCCESS ? planned_failure(may_lose_device) : result;           \
+        if (failure != VK_SUCCESS && failure != VK_NOT_READY && the_device)                                  \
+            next.wait_idle(the_device);                                                                      \
+        return may_lose_device || failure != VK_SUCCESS ? failure : function(a, b, c, d, e, f, g, h);        \
+    }
+FUNCTIONS(DEFINE)
 
 static VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer commands, uint32_t x, uint32_t y, uint32_t z)
 {
@@ -162,7 +180,9 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo
     next_instance_function = chain->u.pLayerInfo->pfnNextGetInstanceProcAddr;
     chain->u.pLayerInfo = chain->u.pLayerInfo->pNext;
     PFN_vkCreateInstance create = (PFN_vkCreateInstance)next_instance_function(NULL, "vkCreateInstance");
-    VkResult result = create(info, allocator, instance);
+    VkResult result = planned_failure(false);
+    if (result == VK_SUCCESS)
+        result = create(info, allocator, instance);
     if (result != VK_SUCCESS)
         return result;
 #define FIND(member, name) next.member = (PFN_##name)next_instance_function(*instance, #name)
@@ -171,6 +191,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo
     FIND(get_properties_2, vkGetPhysicalDeviceProperties2);
     FIND(get_memory, vkGetPhysicalDeviceMemoryProperties);
 #undef FIND
+    next_vkEnumeratePhysicalDevices = next_instance_function(*instance, "vkEnumeratePhysicalDevices");
     return VK_SUCCESS;
 }
 
@@ -185,16 +206,20 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical_de
     PFN_vkGetInstanceProcAddr next_of_instance = chain->u.pLayerInfo->pfnNextGetInstanceProcAddr;
     chain->u.pLayerInfo = chain->u.pLayerInfo->pNext;
     PFN_vkCreateDevice create = (PFN_vkCreateDevice)next_of_instance(the_instance, "vkCreateDevice");
-    VkResult result = create(physical_device, info, allocator, device);
+    VkResult result = planned_failure(false);
+    if (result == VK_SUCCESS)
+        result = create(physical_device, info, allocator, device);
     if (result != VK_SUCCESS)
         return result;
 #define FIND(member, name) next.member = (PFN_##name)next_device_function(*device, #name)
-    FIND(queue_submit, vkQueueSubmit);
-    FIND(get_fence_status, vkGetFenceStatus);
+    the_device = *device;
     FIND(wait_idle, vkDeviceWaitIdle);
-    FIND(allocate_memory, vkAllocateMemory);
-    FIND(create_pipelines, vkCreateComputePipelines);
     FIND(dispatch, vkCmdDispatch);
+#undef FIND
+#define FIND(name, may_lose_device)                                                                          \
+    if (next_device_function(*device, #name))                                                                \
+        next_##name = next_device_function(*device, #name);
+    FUNCTIONS(FIND)
 #undef FIND
     return VK_SUCCESS;
 }
@@ -218,19 +243,17 @@ static PFN_vkVoidFunction own_function(const char *name)
     static const struct {
         const char *name;
         PFN_vkVoidFunction function;
-    } functions[] = {
-        {"vkGetInstanceProcAddr", (PFN_vkVoidFunction)get_instance_function},
-        {"vkGetDeviceProcAddr", (PFN_vkVoidFunction)get_device_function},
-        {"vkCreateInstance", (PFN_vkVoidFunction)create_instance},
-        {"vkCreateDevice", (PFN_vkVoidFunction)create_device},
-        {"vkGetPhysicalDeviceProperties", (PFN_vkVoidFunction)get_properties},
-        {"vkGetPhysicalDeviceProperties2", (PFN_vkVoidFunction)get_properties_2},
-        {"vkGetPhysicalDeviceMemoryProperties", (PFN_vkVoidFunction)get_memory},
-        {"vkQueueSubmit", (PFN_vkVoidFunction)queue_submit},
-        {"vkGetFenceStatus", (PFN_vkVoidFunction)get_fence_status},
-        {"vkAllocateMemory", (PFN_vkVoidFunction)allocate_memory},
-        {"vkCreateComputePipelines", (PFN_vkVoidFunction)create_pipelines},
-        {"vkCmdDispatch", (PFN_vkVoidFunction)dispatch},
+    } functions[] = {{"vkGetInstanceProcAddr", (PFN_vkVoidFunction)get_instance_function},
+                     {"vkGetDeviceProcAddr", (PFN_vkVoidFunction)get_device_function},
+                     {"vkCreateInstance", (PFN_vkVoidFunction)create_instance},
+                     {"vkCreateDevice", (PFN_vkVoidFunction)create_device},
+                     {"vkGetPhysicalDeviceProperties", (PFN_vkVoidFunction)get_properties},
+                     {"vkGetPhysicalDeviceProperties2", (PFN_vkVoidFunction)get_properties_2},
+                     {"vkGetPhysicalDeviceMemoryProperties", (PFN_vkVoidFunction)get_memory},
+                     {"vkCmdDispatch", (PFN_vkVoidFunction)dispatch},
+#define NAMED(name, may_lose_device) {#name, (PFN_vkVoidFunction)pretended_##name},
+                     FUNCTIONS(NAMED)
+#undef NAMED
     };
     for (size_t i = 0; i < sizeof functions / sizeof *functions; ++i)
         if (strcmp(functions[i].name, name) == 0)

@@ -87,11 +87,9 @@ static enum status foresee(struct bench *bench, const struct bench_point *point,
     return status;
 }
 
-/* Starts the points, and measures their errors by their first pictures. What takes too long or the device
- * cannot do is left out. */
+/* Starts the points, and measures their errors by their first pictures. What takes too long is left out. */
 static enum status start_points(struct bench *bench)
 {
-    const struct vulkan_context *context = bench->options->context;
     const size_t count = bench->count;
     enum status status = STATUS_DONE;
     bench->count = 0;
@@ -113,9 +111,6 @@ static enum status start_points(struct bench *bench)
             status = bench_error_measure(&bench->image,
                                          point->family == FAMILY_SAMPLES ? &bench->filtered : &bench->truth,
                                          &point->error);
-        } else if (status == STATUS_UNABLE && !(context && context->lost)) {
-            log_warning("%s: left out: %s", bench->job.scene.path, point->label);
-            status = STATUS_DONE;
         }
     }
     return status;

@@ -51,18 +51,4 @@ texel_limit() {
     expect 0 "$VKWHITTED" render -q $small -o a.png "$flake"
 }
 
-# A lost device, and no memory: a message, status 3 and nothing half-written.
-failing_calls() {
-    export PRETEND_FAIL
-    for failure in vkQueueSubmit:2:-4 vkGetFenceStatus:2:-4 vkAllocateMemory:4:-2 vkCreateComputePipelines:2:-2; do
-        PRETEND_FAIL=$failure
-        code='VK_ERROR_(DEVICE_LOST|OUT_OF_DEVICE_MEMORY)'
-        refused 3 "${failure%%:*}.*: $code" render $small -o a.png "$figure"
-        refused 3 "${failure%%:*}.*: $code" check $small "$figure"
-        case $failure in *:-4) refused 3 "${failure%%:*}: $code" bench --quick -q $small "$figure" ;; esac
-        refused 3 "${failure%%:*}.*: $code" pixel $small "$figure" 30 20
-        only_files
-    done
-}
-
 "$1"

@@ -332,17 +332,25 @@ saves() {
     said '^vkwhitted: .*same pipeline'
 }
 
-device_lost() {
-    export VK_ADD_LAYER_PATH=$LAYER VK_INSTANCE_LAYERS=VK_LAYER_VKWHITTED_pretend
-    PRETEND_FAIL=vkGetFenceStatus:1:-4 PRETEND_AFTER=$PWD/go start
-    touch go
-    turn 'rendering failed; picture 1 stays' edit 's/fov_y: [0-9]*/fov_y: 50/' s.yaml
-    said 'vkGetFenceStatus: VK_ERROR_DEVICE_LOST'
-    eventually grep -q '^vkwhitted: the device was lost, and opened again' err
-    rm go
-    turn 'picture 2: pipeline rebuilt' edit 's/fov_y: [0-9]*/fov_y: 51/' s.yaml
-    picture_is_rendered_scene
+# Whichever call of a turn fails, or loses the device: that is said, and the next turn's picture is right.
+failing_calls() {
+    local code number lost=0
+    export VK_ADD_LAYER_PATH=$LAYER VK_INSTANCE_LAYERS=VK_LAYER_VKWHITTED_pretend PRETEND_FAIL=$PWD/plan
+    start
+    for number in {1..1000}; do
+        code=$((number % 2 ? -2 : -4))
+        echo "$number $code" >new && mv new plan
+        turn . edit 's/type: transparent.*}/type: mirror }/' s.yaml
+        [ ! -e plan ] || break
+        last_turn | grep -q 'rendering failed; picture [0-9]* stays' || fail "call $number"
+        [ "$(grep -Ec 'error: vk[A-Za-z]+.*: VK_ERROR_(DEVICE_LOST|OUT_OF_DEVICE_MEMORY)' err)" = "$number" ] || fail "call $number"
+        [ $code = -2 ] || eventually has_reopened $((++lost))
+        turn 'pipeline rebuilt' cp "$figure" s.yaml
+        picture_is_rendered_scene
+    done
+    [ "$number" -gt 20 ] || fail "only $number calls in a turn"
     finish
 }
+has_reopened() { [ "$(grep -c '^vkwhitted: the device was lost, and opened again' err)" -ge "$1" ]; }
 
 "$1"

@@ -5,8 +5,8 @@
  * that were not freed
  *
  * CALL: memory (malloc, calloc and realloc: ENOMEM), own (those that the program itself calls), open
- * (EMFILE), read (EIO), write (ENOSPC), fsync (EIO), close (EIO) or rename (EACCES). A crash says whose it
- * is: "crash in OBJECT". */
+ * (EMFILE), read (EIO), write (ENOSPC), fsync (EIO), close (EIO), rename (EACCES) or vulkan (those of
+ * pretend_layer.c, where that is loaded). A crash says whose it is: "crash in OBJECT". */
 #include <dlfcn.h>
 #include <errno.h>
 #include <execinfo.h>
@@ -29,9 +29,9 @@ void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *memory, size_t size);
 void __libc_free(void *memory);
 
-enum call { MEMORY, OWN, OPEN, READ, WRITE, FSYNC, CLOSE, RENAME, CALLS };
-static const char *const names[CALLS] = {"memory", "own",   "open",  "read",
-                                         "write",  "fsync", "close", "rename"};
+enum call { MEMORY, OWN, OPEN, READ, WRITE, FSYNC, CLOSE, RENAME, VULKAN, CALLS };
+static const char *const names[CALLS] = {"memory", "own",   "open",   "read",  "write",
+                                         "fsync",  "close", "rename", "vulkan"};
 
 static enum call failing = CALLS;
 static long failing_turn = -1;
@@ -160,6 +160,13 @@ int close(int file)
 int rename(const char *old, const char *new)
 {
     return fails(RENAME) ? failure(EACCES) : (int)syscall(SYS_renameat2, AT_FDCWD, old, AT_FDCWD, new, 0);
+}
+
+/* For the layer. */
+bool fails_in_vulkan(void);
+bool fails_in_vulkan(void)
+{
+    return fails(VULKAN);
 }
 
 static void tell_crash(int number)

@@ -146,10 +146,12 @@ static bool is_fine(int outcome, long left)
     const int status = WEXITSTATUS(outcome);
     const char *problem = status != 0 && status != 3                    ? "another status"
                           : status == 3 && !strstr(messages, "error: ") ? "no message"
-                          : status == 0 && files != good_count          ? "files are missing"
-                          : left > 0                                    ? "memory is not freed"
-                          : !each_file(is_whole)                        ? "a file"
-                                                                        : NULL;
+                          : status == 3 && strstr(fail_variable, "vulkan") && !strstr(messages, ": VK_ERROR_")
+                              ? "no result"
+                          : status == 0 && files != good_count ? "files are missing"
+                          : left > 0                           ? "memory is not freed"
+                          : !each_file(is_whole)               ? "a file"
+                                                               : NULL;
     if (problem)
         fprintf(stderr, "%s: %s, status %d, %ld allocations left, said:\n%s", fail_variable, problem, status,
                 left, messages);
