@@ -32,6 +32,7 @@ function(add_pretender name folder)
 endfunction()
 
 add_test_shader(inexact whitted_exact ${shaders}/whitted.comp -DINEXACT_NATIVE)
+add_test_shader(inexact whitted_exact_plain ${shaders}/whitted.comp -DINEXACT_NATIVE -DPLAIN)
 add_test_shader(inexact whitted_corrected ${shaders}/whitted.comp -DINEXACT_NATIVE -DCORRECTED)
 add_test_shader(inexact arithmetic_probe ${shaders}/probe.comp -DINEXACT_NATIVE)
 add_pretender(vkwhitted_inexact inexact ${host}/tracer/whitted_spirv.c ${host}/vulkan/probe.c)

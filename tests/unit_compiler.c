@@ -29,7 +29,7 @@ static void same_as_the_build(void **state)
     static const struct shader_choice choices[] = {
         {WHITTED_EXACT, false}, {WHITTED_FAST, true}, {WHITTED_CORRECTED_EVENTS, true}};
     for (int i = 0; i < 3; ++i) {
-        struct spirv built = whitted_spirv(choices[i].variant, choices[i].scene_in_storage);
+        struct spirv built = whitted_spirv(choices[i], false);
         const bool optimised =
             choices[i].variant < WHITTED_EXACT_EVENTS; /* shader_build() never takes the time */
         const char *options[1 + MOST_DEFINES] = {optimised ? "-Os" : "-DUNOPTIMISED"};
@@ -47,13 +47,12 @@ static void same_as_the_build(void **state)
 static void the_builds_obey(void **state)
 {
     (void)state;
-    for (int variant = 0; variant < WHITTED_VARIANTS; ++variant)
-        for (int storage = 0; storage < 2; ++storage) {
-            const struct shader_choice choice = {(enum whitted_variant)variant, storage};
-            struct shader_problem problem;
-            if (!shader_obeys(whitted_spirv(choice.variant, storage), choice, &problem))
-                fail_msg("variant %d, storage %d: %s", variant, storage, problem.text);
-        }
+    for (int i = 0; i < WHITTED_VARIANTS * 4; ++i) {
+        const struct shader_choice choice = {(enum whitted_variant)(i / 4), i & 1};
+        struct shader_problem problem;
+        if (!shader_obeys(whitted_spirv(choice, i & 2), choice, &problem))
+            fail_msg("variant %d, storage %d, plain %d: %s", i / 4, i & 1, i & 2, problem.text);
+    }
 }
 
 static void write_file(const char *path, const char *text)

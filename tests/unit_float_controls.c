@@ -21,7 +21,7 @@ static struct vulkan_context device(VkBool32 in_float, VkBool32 in_double)
 static size_t words_more(enum whitted_variant variant, VkBool32 in_float, VkBool32 in_double)
 {
     const struct vulkan_context context = device(in_float, in_double);
-    const struct spirv built = whitted_spirv(variant, false);
+    const struct spirv built = whitted_spirv((struct shader_choice){variant, false}, false);
     const struct spirv declared = float_controls_declare(&context, built);
     FILE *file = fopen("declared.spv", "wb");
     assert_non_null(declared.words);

@@ -37,8 +37,7 @@ static enum status create_pass(struct dispatcher *dispatcher)
         dispatcher->context,
         &(struct pass_info){
             .name = "whitted.comp",
-            .code =
-                options->code.words ? options->code : whitted_spirv(choice.variant, choice.scene_in_storage),
+            .code = options->code.words ? options->code : whitted_spirv(choice, is_plain(&specialization)),
             .fast = options->fast,
             .constants = constants,
             .constant_count = CONSTANTS,

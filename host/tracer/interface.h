@@ -62,7 +62,7 @@ struct tracer_options {
 };
 
 /* shaders/whitted.comp as compiled by the build, the scene in uniform or in storage buffers; only the latter
- * has a hierarchy. */
-struct spirv whitted_spirv(enum whitted_variant variant, bool scene_in_storage);
+ * has a hierarchy. Where the rest of it is plain, see specialization.h, it may be a smaller variant. */
+struct spirv whitted_spirv(struct shader_choice choice, bool plain);
 
 #endif

@@ -81,3 +81,10 @@ struct specialization specialize(const struct vulkan_context *context, const str
     }
     return constants;
 }
+
+bool is_plain(const struct specialization *constants)
+{
+    return constants->quad_lights == 0 && constants->output == OUTPUT_RADIANCE && !constants->prunes &&
+           !constants->charges && !constants->rays_escape && constants->processor &&
+           !constants->samples_apart && constants->giants == 0 && constants->hoisted;
+}

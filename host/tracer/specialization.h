@@ -26,4 +26,7 @@ struct specialization {
 struct specialization specialize(const struct vulkan_context *context, const struct packed_scene *scene,
                                  const struct dispatch_size *size, const struct tracer_options *options);
 
+/* Whether the shader's constants that are RARE have the values that its plain variant fixes. */
+bool is_plain(const struct specialization *constants);
+
 #endif
