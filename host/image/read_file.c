@@ -56,18 +56,16 @@ static const char *next_word(const struct read_input *input, size_t *place, size
 
 struct pfm_header {
     unsigned long width, height;
-    double scale;    /* of all values */
-    size_t channels; /* 3 or 1 */
-    size_t start;    /* of the values */
+    double scale; /* of all values */
+    size_t start; /* of the values */
 };
 
 static bool read_pfm_header(const struct read_input *input, struct pfm_header *header)
 {
     size_t place = 0, length;
     const char *word = next_word(input, &place, &length);
-    if (length != 2 || word[0] != 'P' || (word[1] != 'F' && word[1] != 'f'))
+    if (length != 2 || memcmp(word, "PF", 2) != 0)
         return false;
-    header->channels = word[1] == 'F' ? 3 : 1;
     unsigned long *const sizes[] = {&header->width, &header->height};
     for (int i = 0; i < 2; ++i) {
         word = next_word(input, &place, &length);
@@ -94,14 +92,13 @@ enum status image_read_pfm(const struct read_input *input, struct read_image *pi
 {
     struct pfm_header header;
     if (!read_pfm_header(input, &header)) {
-        log_error("%s: is no PFM: expected \"PF\" or \"Pf\", width, height and scale in its first lines",
-                  input->path);
+        log_error("%s: is no PFM: expected \"PF\", width, height and scale in its first lines", input->path);
         return STATUS_REFUSED;
     }
     enum status status = read_image_create(input, header.width, header.height, picture);
     if (status != STATUS_DONE)
         return status;
-    const size_t row = header.width * header.channels, values = row * header.height;
+    const size_t row = header.width * 3, values = row * header.height;
     const size_t found = input->size > header.start ? input->size - header.start : 0;
     if (found != values * sizeof(float)) {
         log_error("%s: expected %zu bytes behind its header, has %zu", input->path, values * sizeof(float),
@@ -109,9 +106,8 @@ enum status image_read_pfm(const struct read_input *input, struct read_image *pi
         return STATUS_REFUSED;
     }
     const float factor = (float)fabs(header.scale);
-    for (size_t i = 0; i < header.width * header.height * 3; ++i) {
-        const size_t y = header.height - 1 - i / (3 * header.width), in_row = i % (3 * header.width);
-        const size_t place = y * row + (header.channels == 3 ? in_row : in_row / 3);
+    for (size_t i = 0; i < values; ++i) {
+        const size_t place = (header.height - 1 - i / row) * row + i % row; /* from the bottom to the top */
         const float value = factor * float_of(input->bytes + header.start + 4 * place, header.scale > 0);
         picture->rgb[i] = (struct value_range){value, value};
     }
