@@ -33,7 +33,7 @@ static const struct {
     {HEAD "objects: &a [*a]\n", "3:14: error: alias \"a\": no such anchor before it"},
     {HEAD "---\ncamera: 1\n", "3:1: error: a second document; a scene file must hold one"},
     {HEAD "...\nmore\n", "4:1: error: a second document; a scene file must hold one"},
-    {"%YAML 9.9\n---\na: 1\n", "1:1: error: not YAML 1.2 from here on"},
+    {"%YAML 1.2\n---\na: 1\n", "1:1: error: scene files have no YAML directives"},
     {HEAD "# \xFF\n", "3:3: error: must be printable UTF-8 text, has the byte 0xFF"},
     {HEAD "# \xC3\n", "3:3: error: must be printable UTF-8 text, has the byte 0xC3"},
     {HEAD "# \xED\xA0\x80\n", "3:3: error: must be printable UTF-8 text, has the byte 0xED"},

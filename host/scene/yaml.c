@@ -96,15 +96,8 @@ static bool is_mark(const char *text, size_t length, size_t at)
     return strchr(",[{:'!*", text[at]) || (before_blank && (text[at] == '-' || text[at] == '?'));
 }
 
-/* "%YAML 1.2"; libfyaml's time grows with the square of such a line's length. */
-static bool is_version(const char *text, size_t length, size_t at)
-{
-    static const char version[] = "%YAML ";
-    return at == 0 && length >= sizeof version && memcmp(text, version, sizeof version - 1) == 0 &&
-           memchr(text, '\n', length < 20 ? length : 20);
-}
-
-/* What libfyaml 0.7.12 does not say no to, or takes too long to: it drops what follows a NUL or bad UTF-8. */
+/* What libfyaml 0.7.12 does not say no to, or takes too long to: it drops what follows a NUL or bad UTF-8,
+ * and its time grows with the square of a directive's length. */
 static void check_characters(struct diagnostics *report)
 {
     const char *text = report->text;
@@ -121,8 +114,8 @@ static void check_characters(struct diagnostics *report)
             report_error(report, place, "more than %d anchors", MAX_ANCHORS);
         else if (marks > MAX_MARKS)
             report_error(report, place, "more than %d values; many spheres belong into an array", MAX_MARKS);
-        else if (text[at] == '%' && place.column == 1 && !is_version(text, report->length, at))
-            report_error(report, place, "scene files have no YAML directives but %%YAML");
+        else if (text[at] == '%' && place.column == 1)
+            report_error(report, place, "scene files have no YAML directives");
         place.column++;
         if (text[at] == '\n' || (text[at] == '\r' && (at + 1 == report->length || text[at + 1] != '\n')))
             place = (struct scene_place){place.line + 1, 1};
