@@ -1,5 +1,179 @@
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/progress.h"
 #include "scene/body.h"
-#include "scene/overlap.h"
+#include "scene/pack.h"
+
+enum { MOST_PAIRS = 1000 }; /* that are counted: a dense cloud of n spheres has n^2 / 2 */
+enum { FIRST_BLOCK = 64, MOST_IN_BLOCK = 1 << 16, LEAST_PARALLEL = 4096 }; /* bodies */
+
+/* The transparent bodies of a scene. */
+struct search {
+    const struct scene *scene;
+    double scale; /* from metres to scene units */
+    size_t sphere_count, plane_count;
+    size_t *planes;               /* their numbers */
+    struct PackedSphere *spheres; /* a little larger than they are; FILE_ORDER: their numbers */
+    struct hierarchy hierarchy;
+};
+
+/* A body that is compared with those before it. */
+struct query {
+    const struct search *search;
+    size_t number;
+    struct body body;
+    size_t most, pairs; /* when to stop; so far */
+    size_t first;       /* of the bodies that it overlaps */
+};
+
+/* Whether the surfaces of two bodies cross, or coincide with both bodies on the same side. */
+static bool overlap(struct body a, struct body b)
+{
+    if (!a.is_ball && !b.is_ball)
+        return dvec3_length(dvec3_cross(a.vector, b.vector)) > RESOLUTION ||
+               (dvec3_dot(a.vector, b.vector) > 0 &&
+                fabs(a.number - b.number) <= RESOLUTION * fabs(b.number));
+    bool a_is_smaller = a.is_ball && (!b.is_ball || a.number <= b.number);
+    struct body ball = a_is_smaller ? a : b, other = a_is_smaller ? b : a;
+    double touching = RESOLUTION * (dvec3_length(ball.vector) + ball.number);
+    bool coincide = other.is_ball && other.number - ball.number <= touching &&
+                    dvec3_distance(other.vector, ball.vector) <= touching;
+    return coincide || body_reaches_into(other, ball);
+}
+
+static bool compare(struct query *query, size_t number)
+{
+    if (number < query->number && overlap(body_numbered(query->search->scene, number), query->body)) {
+        query->first = query->pairs == 0 || number < query->first ? number : query->first;
+        ++query->pairs;
+    }
+    return query->pairs < query->most;
+}
+
+static bool compare_sphere(void *query, uint32_t sphere)
+{
+    const struct search *search = ((struct query *)query)->search;
+    return compare(query, (size_t)search->spheres[sphere].tags.FILE_ORDER);
+}
+
+/* The ball in scene units, larger than it is by more than float may take away. */
+static layout_vec4 enlarged(const struct search *search, struct body ball)
+{
+    const struct dvec3 center = dvec3_scale(search->scale, ball.vector);
+    const double radius = search->scale * ball.number;
+    return (layout_vec4){(float)center.x, (float)center.y, (float)center.z,
+                         (float)(radius + 0x1p-22 * (dvec3_largest(center) + radius))};
+}
+
+/* Finds up to `most` bodies before this one that it overlaps. */
+static struct query find_partners(const struct search *search, size_t number, size_t most)
+{
+    struct query query = {
+        .search = search, .number = number, .body = body_numbered(search->scene, number), .most = most};
+    bool more = true;
+    for (size_t i = 0; i < search->plane_count && more; ++i)
+        more = compare(&query, search->planes[i]);
+    if (!query.body.is_ball) {
+        for (size_t i = 0; i < search->sphere_count && more; ++i)
+            more = compare_sphere(&query, (uint32_t)i);
+    } else if (more && search->hierarchy.node_count > 0) {
+        const layout_vec4 ball = enlarged(search, query.body);
+        hierarchy_visit(&search->hierarchy,
+                        body_box((struct body){true, dvec3_of_vec4(ball), (double)ball.w, false}),
+                        compare_sphere, &query);
+    }
+    return query;
+}
+
+static bool is_transparent(const struct scene *scene, size_t number)
+{
+    return scene->materials[body_find(scene, number).object->material].type == MATERIAL_TRANSPARENT;
+}
+
+static void warn_of_pair(const struct scene *scene, size_t pairs, struct body_place earlier,
+                         struct body_place later)
+{
+    char others[64] = "", earlier_name[BODY_NAME], later_name[BODY_NAME];
+    if (pairs > 1)
+        snprintf(others, sizeof others, " (and %s%zu other pair%s)", pairs >= MOST_PAIRS ? "at least " : "",
+                 pairs >= MOST_PAIRS ? MOST_PAIRS - 1 : pairs - 1, pairs > 2 ? "s" : "");
+    log_warning("%s:%d:%d: transparent bodies %s and %s overlap%s, which the model does not cover; a body "
+                "wholly inside another is no mistake, if its ior is relative to that one's (air in glass: "
+                "1/1.5)",
+                scene->path, later.object->place.line, later.object->place.column,
+                body_name(earlier, earlier_name), body_name(later, later_name), others);
+}
+
+/* Block after block, so that the first pair is known when there are enough. */
+static void find_pairs(const struct search *search)
+{
+    const struct scene *scene = search->scene;
+    size_t pairs = 0, later = SIZE_MAX;
+    struct progress progress;
+    progress_start(&progress, "looking for overlaps", scene->body_count, false);
+    for (size_t first = 0, size = FIRST_BLOCK, end; first < scene->body_count && pairs < MOST_PAIRS;
+         first = end, size = size < MOST_IN_BLOCK ? 2 * size : size) {
+        end = scene->body_count - first < size ? scene->body_count : first + size;
+#pragma omp parallel for reduction(+ : pairs) reduction(min : later) schedule(dynamic, 16)                           \
+    if (scene->body_count > LEAST_PARALLEL)
+        for (size_t i = first; i < end; ++i) {
+            size_t found = is_transparent(scene, i) ? find_partners(search, i, MOST_PAIRS).pairs : 0;
+            pairs += found;
+            later = found > 0 && i < later ? i : later;
+        }
+        progress_advance(&progress, end - first);
+    }
+    progress_end(&progress);
+    if (pairs > 0)
+        warn_of_pair(scene, pairs, body_find(scene, find_partners(search, later, SIZE_MAX).first),
+                     body_find(scene, later));
+}
+
+static void collect(struct search *search)
+{
+    size_t spheres = 0, planes = 0;
+    for (size_t i = 0; i < search->scene->body_count; ++i) {
+        const struct body body = body_numbered(search->scene, i);
+        if (!is_transparent(search->scene, i))
+            continue;
+        if (body.is_ball)
+            search->spheres[spheres++] =
+                (struct PackedSphere){enlarged(search, body), {.FILE_ORDER = (int)i}};
+        else
+            search->planes[planes++] = i;
+    }
+}
+
+/* Of the pair that is complete first in the file, of its partners the first, and of how many pairs more there
+ * are. Without memory for that it says that there may be some. */
+static void warn_of_overlaps(const struct scene *scene)
+{
+    struct search search = {.scene = scene, .scale = pack_scale(scene)};
+    for (size_t i = 0; i < scene->body_count; ++i)
+        if (is_transparent(scene, i))
+            ++*(body_numbered(scene, i).is_ball ? &search.sphere_count : &search.plane_count);
+    if (search.sphere_count + search.plane_count < 2)
+        return;
+    search.planes = calloc(search.plane_count + 1, sizeof *search.planes);
+    search.spheres = calloc(search.sphere_count + 1, sizeof *search.spheres);
+    enum status status = STATUS_UNABLE;
+    if (search.planes && search.spheres) {
+        collect(&search);
+        status = search.sphere_count == 0
+                     ? STATUS_DONE
+                     : hierarchy_build(search.spheres, 0, (uint32_t)search.sphere_count, &search.hierarchy);
+    } else
+        log_error("%s: no memory to compare %zu transparent bodies", scene->path,
+                  search.sphere_count + search.plane_count);
+    if (status == STATUS_DONE)
+        find_pairs(&search);
+    else
+        log_warning("%s: transparent bodies may overlap", scene->path);
+    hierarchy_destroy(&search.hierarchy);
+    free(search.planes);
+    free(search.spheres);
+}
 
 /* Whether the light shines on some point of a matte object; turned: with u and v swapped. */
 static bool shines_on_any(const struct scene *scene, const struct scene_light *light, bool turned)
@@ -36,6 +210,6 @@ static void warn_of_lights(const struct scene *scene)
 
 void scene_warn(const struct scene *scene)
 {
-    overlaps_warn(scene);
+    warn_of_overlaps(scene);
     warn_of_lights(scene);
 }
