@@ -60,8 +60,7 @@ static void test_commit_replaces(void **state)
     put_file("target", "old");
     struct output_file file;
     assert_int_equal(output_file_open("target", &file), STATUS_DONE);
-    assert_true(output_file_write(&file, "new ", 4));
-    fprintf(file.stream, "%s", "text");
+    fputs("new text", file.stream);
     fflush(file.stream);
     assert_file("target", "old");
     assert_int_equal(output_file_commit(&file), STATUS_DONE);
@@ -87,7 +86,7 @@ static void test_abandon_and_check_leave_nothing(void **state)
     put_file("target", "old");
     struct output_file file;
     assert_int_equal(output_file_open("target", &file), STATUS_DONE);
-    output_file_write(&file, "new", 3);
+    fputs("new", file.stream);
     output_file_abandon(&file);
     output_file_abandon(&file);
     assert_int_equal(output_file_claim("target"), STATUS_DONE);
@@ -101,7 +100,7 @@ static void commit_text(const char *path, const char *text)
 {
     struct output_file file;
     assert_int_equal(output_file_open(path, &file), STATUS_DONE);
-    output_file_write(&file, text, strlen(text));
+    fputs(text, file.stream);
     assert_int_equal(output_file_commit(&file), STATUS_DONE);
 }
 
