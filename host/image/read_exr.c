@@ -5,7 +5,7 @@
 
 #include "image/exr_error.h"
 #include "image/exr_input.h"
-#include "image/read_formats.h"
+#include "image/formats.h"
 
 static const char *const rgb[] = {"R", "G", "B"};
 

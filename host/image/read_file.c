@@ -6,7 +6,7 @@
 
 #include "base/number.h"
 #include "base/text_file.h"
-#include "image/read_formats.h"
+#include "image/formats.h"
 
 static const size_t largest_file = (size_t)1 << 32;
 

@@ -17,7 +17,7 @@ struct body {
     bool is_ball;
     struct dvec3 vector;
     double number;
-    bool is_giant; /* stored as such in the packed scene, in whose units it is; see giant.h */
+    bool is_giant; /* stored as such in the packed scene, in whose units it is; see giant_is() */
 };
 
 /* Where a body stands in the scene: an object, or a row of a file with spheres. */
@@ -100,6 +100,25 @@ static inline double body_distance(struct body body, struct dvec3 point)
 {
     return body.is_ball ? dvec3_distance(point, body.vector) - body.number
                         : dvec3_dot(body.vector, point) - body.number;
+}
+
+enum { GIANT = 8 };
+
+/* Whether the body is a giant: a ball with a radius of more than GIANT times the camera's coordinates and
+ * its distance from the surface. Relative to its centre, places near the camera would lose more than 3 bits
+ * of what float has of the coordinates; as a plane that curves, stored by what it is at the origin of
+ * coordinates, it loses none. */
+static inline bool giant_is(const struct scene *scene, struct body body)
+{
+    const struct dvec3 camera = dvec3_of(scene->camera.position);
+    return body.is_ball && body.number > GIANT * dvec3_largest(camera) &&
+           body.number > GIANT * fabs(body_distance(body, camera));
+}
+
+/* Of its surface over the origin, along the normal there. */
+static inline double giant_height(struct body giant)
+{
+    return giant.number - dvec3_length(giant.vector);
 }
 
 /* Whether the body's surface reaches into the ball; that of a larger ball around it does not. A giant's

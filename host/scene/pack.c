@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "scene/body.h"
-#include "scene/giant.h"
 #include "scene/hollow.h"
 #include "scene/looped.h"
 #include "scene/truncation.h"
