@@ -2,7 +2,6 @@
 #include "cmocka_test.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "image/srgb.h"
@@ -71,16 +70,6 @@ static void test_thresholds(void **state)
         check_range(&encoder, edge - 2, edge + 2, 1);
 }
 
-/* Steps of 1 (VKWHITTED_EXHAUSTIVE set: some seconds) or of a prime. */
-static void test_all_floats(void **state)
-{
-    (void)state;
-    struct srgb_encoder encoder;
-    srgb_encoder_init(&encoder);
-    uint32_t step = getenv("VKWHITTED_EXHAUSTIVE") ? 1 : 7919;
-    check_range(&encoder, 0, bits_of(2.0f), step);
-}
-
 static void test_no_numbers(void **state)
 {
     (void)state;
@@ -128,7 +117,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_thresholds),
-        cmocka_unit_test(test_all_floats),
         cmocka_unit_test(test_no_numbers),
         cmocka_unit_test(test_linear),
     };
