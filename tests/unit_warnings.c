@@ -8,8 +8,9 @@
 #include <time.h>
 
 #include "npy_file.h"
-#include "scene/scene.h"
+#include "scene/warnings.h"
 #include "test_folder.h"
+#include "test_render.h"
 
 #define HEAD                                                                                                 \
     "camera: { position: [0, 2, -6], look_at: [0, 2, 0] }\n"                                                 \
@@ -30,6 +31,17 @@
     "vkwhitted: warning: a.yaml:" place                                                                      \
     ": quad light shines away from every matte surface; swap u and v to turn it round"
 
+/* Packs the scene and warns; the number of lines printed, of which line gets the last. */
+static int warn(const struct scene *scene, char line[256])
+{
+    struct packed_scene packed = test_pack(scene, test_settings(scene));
+    test_messages_begin();
+    scene_warn(scene, &packed);
+    const int lines = test_messages_end(line);
+    pack_destroy(&packed);
+    return lines;
+}
+
 /* expected: the one warning, or "". */
 static void check_warning(const char *objects_and_lights, const char *expected)
 {
@@ -37,9 +49,7 @@ static void check_warning(const char *objects_and_lights, const char *expected)
     struct scene scene;
     snprintf(text, sizeof text, "%s%s", HEAD, objects_and_lights);
     assert_int_equal(scene_read_text("a.yaml", text, strlen(text), &scene), STATUS_DONE);
-    test_messages_begin();
-    scene_warn(&scene);
-    int lines = test_messages_end(line);
+    int lines = warn(&scene, line);
     assert_string_equal(line, expected);
     assert_int_equal(lines, expected[0] ? 1 : 0);
     scene_destroy(&scene);
@@ -138,16 +148,24 @@ static void panes(void **state)
     }
 }
 
+static const struct scene_camera camera = {{0, 2, -6}, {0, 2, 0}, {0, 1, 0}, 60};
+
 /* A grid of 27,000 spheres of glass with a bubble in each, of which one crosses: done in a moment. */
 static void many_spheres(void **state)
 {
     (void)state;
     enum { SIDE = 30, COUNT = 2 * SIDE * SIDE * SIDE };
-    struct scene scene = {.path = "a.yaml", .material_count = 1, .object_count = COUNT, .body_count = COUNT};
+    struct scene scene = {.path = "a.yaml",
+                          .camera = camera,
+                          .width = 60,
+                          .height = 40,
+                          .material_count = 1,
+                          .object_count = COUNT,
+                          .body_count = COUNT};
     scene.materials = calloc(1, sizeof *scene.materials);
     scene.objects = calloc(COUNT, sizeof *scene.objects);
     assert_true(scene.materials && scene.objects);
-    scene.materials[0].type = MATERIAL_TRANSPARENT;
+    scene.materials[0] = (struct scene_material){.type = MATERIAL_TRANSPARENT, .ior = 1.5};
     for (int i = 0; i < COUNT; ++i) {
         int cell = i / 2;
         scene.objects[i] = (struct scene_object){
@@ -161,9 +179,7 @@ static void many_spheres(void **state)
     scene.objects[COUNT - 1].sphere.center[0] += 0.3;
     char line[256];
     clock_t start = clock();
-    test_messages_begin();
-    scene_warn(&scene);
-    assert_int_equal(test_messages_end(line), 1);
+    assert_int_equal(warn(&scene, line), 1);
     assert_non_null(strstr(line, "a.yaml:53999:1: transparent bodies \"Other\" and \"Last\" overlap, which"));
     assert_true((double)(clock() - start) / CLOCKS_PER_SEC < 5);
     free(scene.materials);
@@ -205,16 +221,20 @@ static void dense_cloud(void **state)
         rows[i][0] = (float)(i < 7 ? 10 * i : drand48());
         rows[i][3] = 1;
     }
-    struct scene_material glass = {.type = MATERIAL_TRANSPARENT};
+    struct scene_material glass = {.type = MATERIAL_TRANSPARENT, .ior = 1.5};
     struct scene_object object = {
         .name = "Cloud", .type = OBJECT_SPHERES, .spheres = {rows, COUNT}, .place = {3, 1}};
-    struct scene scene = {.path = "a.yaml", .material_count = 1, .materials = &glass, .body_count = COUNT};
+    struct scene scene = {.path = "a.yaml",
+                          .camera = camera,
+                          .width = 60,
+                          .height = 40,
+                          .material_count = 1,
+                          .materials = &glass,
+                          .body_count = COUNT};
     scene.object_count = 1;
     scene.objects = &object;
     clock_t start = clock();
-    test_messages_begin();
-    scene_warn(&scene);
-    assert_int_equal(test_messages_end(line), 1);
+    assert_int_equal(warn(&scene, line), 1);
     assert_non_null(
         strstr(line, "\"Cloud\" row 0 and \"Cloud\" row 7 overlap (and at least 999 other pairs)"));
     assert_true((double)(clock() - start) / CLOCKS_PER_SEC < 5);

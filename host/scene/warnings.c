@@ -1,5 +1,6 @@
+#include "scene/warnings.h"
+
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "base/progress.h"
 #include "scene/body.h"
@@ -8,24 +9,20 @@
 enum { MOST_PAIRS = 1000 }; /* that are counted: a dense cloud of n spheres has n^2 / 2 */
 enum { FIRST_BLOCK = 64, MOST_IN_BLOCK = 1 << 16, LEAST_PARALLEL = 4096 }; /* bodies */
 
-/* The transparent bodies of a scene. */
-struct search {
-    const struct scene *scene;
-    double scale; /* from metres to scene units */
-    size_t sphere_count, plane_count;
-    size_t *planes;               /* their numbers */
-    struct PackedSphere *spheres; /* a little larger than they are; FILE_ORDER: their numbers */
-    struct hierarchy hierarchy;
-};
-
-/* A body that is compared with those before it. */
+/* A transparent body that is compared with those before it. */
 struct query {
-    const struct search *search;
+    const struct scene *scene;
+    const struct packed_scene *packed;
     size_t number;
     struct body body;
     size_t most, pairs; /* when to stop; so far */
     size_t first;       /* of the bodies that it overlaps */
 };
+
+static bool is_transparent(const struct scene *scene, size_t number)
+{
+    return scene->materials[body_find(scene, number).object->material].type == MATERIAL_TRANSPARENT;
+}
 
 /* Whether the surfaces of two bodies cross, or coincide with both bodies on the same side. */
 static bool overlap(struct body a, struct body b)
@@ -42,9 +39,12 @@ static bool overlap(struct body a, struct body b)
     return coincide || body_reaches_into(other, ball);
 }
 
-static bool compare(struct query *query, size_t number)
+/* Compares with a body of the packed scene, as the scene file has it; whether to go on. */
+static bool compare(struct query *query, int packed_body)
 {
-    if (number < query->number && overlap(body_numbered(query->search->scene, number), query->body)) {
+    const size_t number = (size_t)body_file_order(query->packed, packed_body);
+    if (number < query->number && is_transparent(query->scene, number) &&
+        overlap(body_numbered(query->scene, number), query->body)) {
         query->first = query->pairs == 0 || number < query->first ? number : query->first;
         ++query->pairs;
     }
@@ -53,42 +53,33 @@ static bool compare(struct query *query, size_t number)
 
 static bool compare_sphere(void *query, uint32_t sphere)
 {
-    const struct search *search = ((struct query *)query)->search;
-    return compare(query, (size_t)search->spheres[sphere].tags.FILE_ORDER);
+    return compare(query, (int)sphere);
 }
 
-/* The ball in scene units, larger than it is by more than float may take away. */
-static layout_vec4 enlarged(const struct search *search, struct body ball)
+/* In scene units, larger than the ball is by more than float takes away from it and from one that touches it.
+ */
+static struct box box_around(const struct query *query, double scale)
 {
-    const struct dvec3 center = dvec3_scale(search->scale, ball.vector);
-    const double radius = search->scale * ball.number;
-    return (layout_vec4){(float)center.x, (float)center.y, (float)center.z,
-                         (float)(radius + 0x1p-22 * (dvec3_largest(center) + radius))};
+    struct body ball = query->body;
+    ball.vector = dvec3_scale(scale, ball.vector);
+    ball.number = scale * ball.number + 0x1p-22 * (1 + dvec3_largest(ball.vector) + scale * ball.number);
+    return body_box(ball);
 }
 
-/* Finds up to `most` bodies before this one that it overlaps. */
-static struct query find_partners(const struct search *search, size_t number, size_t most)
+/* Finds up to `most` transparent bodies before this one that it overlaps. */
+static struct query find_partners(const struct scene *scene, const struct packed_scene *packed, double scale,
+                                  size_t number, size_t most)
 {
-    struct query query = {
-        .search = search, .number = number, .body = body_numbered(search->scene, number), .most = most};
+    struct query query = {scene, packed, number, body_numbered(scene, number), .most = most};
+    const int one_by_one = query.body.is_ball ? packed->looped_spheres : packed->sphere_count;
     bool more = true;
-    for (size_t i = 0; i < search->plane_count && more; ++i)
-        more = compare(&query, search->planes[i]);
-    if (!query.body.is_ball) {
-        for (size_t i = 0; i < search->sphere_count && more; ++i)
-            more = compare_sphere(&query, (uint32_t)i);
-    } else if (more && search->hierarchy.node_count > 0) {
-        const layout_vec4 ball = enlarged(search, query.body);
-        hierarchy_visit(&search->hierarchy,
-                        body_box((struct body){true, dvec3_of_vec4(ball), (double)ball.w, false}),
-                        compare_sphere, &query);
-    }
+    for (int i = 0; i < one_by_one && more; ++i)
+        more = compare(&query, i);
+    for (int i = packed->sphere_count; i < body_count(packed) && more; ++i)
+        more = compare(&query, i);
+    if (more && one_by_one < packed->sphere_count)
+        hierarchy_visit(packed->hierarchy, box_around(&query, scale), compare_sphere, &query);
     return query;
-}
-
-static bool is_transparent(const struct scene *scene, size_t number)
-{
-    return scene->materials[body_find(scene, number).object->material].type == MATERIAL_TRANSPARENT;
 }
 
 static void warn_of_pair(const struct scene *scene, size_t pairs, struct body_place earlier,
@@ -105,10 +96,11 @@ static void warn_of_pair(const struct scene *scene, size_t pairs, struct body_pl
                 body_name(earlier, earlier_name), body_name(later, later_name), others);
 }
 
-/* Block after block, so that the first pair is known when there are enough. */
-static void find_pairs(const struct search *search)
+/* Of the pair that is complete first in the file, of its partners the first, and of how many pairs more there
+ * are. They are looked for block after block, so that the first one is known when there are enough. */
+static void warn_of_overlaps(const struct scene *scene, const struct packed_scene *packed)
 {
-    const struct scene *scene = search->scene;
+    const double scale = pack_scale(scene);
     size_t pairs = 0, later = SIZE_MAX;
     struct progress progress;
     progress_start(&progress, "looking for overlaps", scene->body_count, false);
@@ -118,7 +110,8 @@ static void find_pairs(const struct search *search)
 #pragma omp parallel for reduction(+ : pairs) reduction(min : later) schedule(dynamic, 16)                           \
     if (scene->body_count > LEAST_PARALLEL)
         for (size_t i = first; i < end; ++i) {
-            size_t found = is_transparent(scene, i) ? find_partners(search, i, MOST_PAIRS).pairs : 0;
+            size_t found =
+                is_transparent(scene, i) ? find_partners(scene, packed, scale, i, MOST_PAIRS).pairs : 0;
             pairs += found;
             later = found > 0 && i < later ? i : later;
         }
@@ -126,53 +119,9 @@ static void find_pairs(const struct search *search)
     }
     progress_end(&progress);
     if (pairs > 0)
-        warn_of_pair(scene, pairs, body_find(scene, find_partners(search, later, SIZE_MAX).first),
+        warn_of_pair(scene, pairs,
+                     body_find(scene, find_partners(scene, packed, scale, later, SIZE_MAX).first),
                      body_find(scene, later));
-}
-
-static void collect(struct search *search)
-{
-    size_t spheres = 0, planes = 0;
-    for (size_t i = 0; i < search->scene->body_count; ++i) {
-        const struct body body = body_numbered(search->scene, i);
-        if (!is_transparent(search->scene, i))
-            continue;
-        if (body.is_ball)
-            search->spheres[spheres++] =
-                (struct PackedSphere){enlarged(search, body), {.FILE_ORDER = (int)i}};
-        else
-            search->planes[planes++] = i;
-    }
-}
-
-/* Of the pair that is complete first in the file, of its partners the first, and of how many pairs more there
- * are. Without memory for that it says that there may be some. */
-static void warn_of_overlaps(const struct scene *scene)
-{
-    struct search search = {.scene = scene, .scale = pack_scale(scene)};
-    for (size_t i = 0; i < scene->body_count; ++i)
-        if (is_transparent(scene, i))
-            ++*(body_numbered(scene, i).is_ball ? &search.sphere_count : &search.plane_count);
-    if (search.sphere_count + search.plane_count < 2)
-        return;
-    search.planes = calloc(search.plane_count + 1, sizeof *search.planes);
-    search.spheres = calloc(search.sphere_count + 1, sizeof *search.spheres);
-    enum status status = STATUS_UNABLE;
-    if (search.planes && search.spheres) {
-        collect(&search);
-        status = search.sphere_count == 0
-                     ? STATUS_DONE
-                     : hierarchy_build(search.spheres, 0, (uint32_t)search.sphere_count, &search.hierarchy);
-    } else
-        log_error("%s: no memory to compare %zu transparent bodies", scene->path,
-                  search.sphere_count + search.plane_count);
-    if (status == STATUS_DONE)
-        find_pairs(&search);
-    else
-        log_warning("%s: transparent bodies may overlap", scene->path);
-    hierarchy_destroy(&search.hierarchy);
-    free(search.planes);
-    free(search.spheres);
 }
 
 /* Whether the light shines on some point of a matte object; turned: with u and v swapped. */
@@ -208,8 +157,8 @@ static void warn_of_lights(const struct scene *scene)
     }
 }
 
-void scene_warn(const struct scene *scene)
+void scene_warn(const struct scene *scene, const struct packed_scene *packed)
 {
-    warn_of_overlaps(scene);
+    warn_of_overlaps(scene, packed);
     warn_of_lights(scene);
 }
