@@ -30,6 +30,10 @@ struct body_place {
 struct body_place body_find(const struct scene *scene, size_t number);
 struct body body_numbered(const struct scene *scene, size_t number);
 
+/* Calls visit for each body of the packed scene but the spheres of the hierarchy whose boxes do not touch the
+ * box, by its number, until it returns false. */
+void body_visit(const struct packed_scene *packed, struct box box, hierarchy_visitor *visit, void *user);
+
 enum { BODY_NAME = 600 }; /* bytes; a name has fewer than 512 */
 
 /* As messages have it, written to text: "Ball", or "Flake" row 17. */

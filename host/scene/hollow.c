@@ -16,29 +16,12 @@ struct search {
     bool found;
 };
 
-static bool look_at(struct search *search, int i)
+static bool look_at(void *user, uint32_t body)
 {
+    struct search *search = user;
+    const int i = (int)body;
     search->found = i != search->sphere && body_reaches_into(body_packed(search->packed, i), search->holder);
     return !search->found;
-}
-
-static bool look_at_sphere(void *search, uint32_t sphere)
-{
-    return look_at(search, (int)sphere);
-}
-
-static bool another_reaches_in(struct search *search)
-{
-    const struct packed_scene *packed = search->packed;
-    for (int i = 0; i < packed->looped_spheres; ++i)
-        if (!look_at(search, i))
-            return true;
-    for (int i = packed->sphere_count; i < body_count(packed); ++i)
-        if (!look_at(search, i))
-            return true;
-    if (packed->hierarchy)
-        hierarchy_visit(packed->hierarchy, body_box(search->holder), look_at_sphere, search);
-    return search->found;
 }
 
 /* Whether some point of a light may lie within the sphere; for quads, of the ball around them. */
@@ -60,9 +43,10 @@ static bool holds_lights(const struct packed_scene *packed, int sphere)
 static void look_inside(struct packed_scene *packed, int sphere)
 {
     struct search search = {.packed = packed, .holder = body_packed(packed, sphere), .sphere = sphere};
-    layout_ivec4 *tags = &packed->spheres[sphere].tags;
-    if (body_surface(packed, sphere)->tags.SURFACE_KIND == KIND_TRANSPARENT && another_reaches_in(&search))
-        tags->HOLDS_RAYS = 1;
+    if (body_surface(packed, sphere)->tags.SURFACE_KIND == KIND_TRANSPARENT)
+        body_visit(packed, body_box(search.holder), look_at, &search);
+    if (search.found)
+        packed->spheres[sphere].tags.HOLDS_RAYS = 1;
 }
 
 static void look_inside_others(struct packed_scene *packed)

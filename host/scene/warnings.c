@@ -40,9 +40,10 @@ static bool overlap(struct body a, struct body b)
 }
 
 /* Compares with a body of the packed scene, as the scene file has it; whether to go on. */
-static bool compare(struct query *query, int packed_body)
+static bool compare(void *user, uint32_t packed_body)
 {
-    const size_t number = (size_t)body_file_order(query->packed, packed_body);
+    struct query *query = user;
+    const size_t number = (size_t)body_file_order(query->packed, (int)packed_body);
     if (number < query->number && is_transparent(query->scene, number) &&
         overlap(body_numbered(query->scene, number), query->body)) {
         query->first = query->pairs == 0 || number < query->first ? number : query->first;
@@ -51,19 +52,15 @@ static bool compare(struct query *query, int packed_body)
     return query->pairs < query->most;
 }
 
-static bool compare_sphere(void *query, uint32_t sphere)
-{
-    return compare(query, (int)sphere);
-}
-
-/* In scene units, larger than the ball is by more than float takes away from it and from one that touches it.
+/* In scene units, larger than the body is by more than float takes away from it and from one that touches it.
  */
-static struct box box_around(const struct query *query, double scale)
+static struct box box_around(struct body body, double scale)
 {
-    struct body ball = query->body;
-    ball.vector = dvec3_scale(scale, ball.vector);
-    ball.number = scale * ball.number + 0x1p-22 * (1 + dvec3_largest(ball.vector) + scale * ball.number);
-    return body_box(ball);
+    if (!body.is_ball)
+        return (struct box){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+    body.vector = dvec3_scale(scale, body.vector);
+    body.number = scale * body.number + 0x1p-22 * (1 + dvec3_largest(body.vector) + scale * body.number);
+    return body_box(body);
 }
 
 /* Finds up to `most` transparent bodies before this one that it overlaps. */
@@ -71,14 +68,7 @@ static struct query find_partners(const struct scene *scene, const struct packed
                                   size_t number, size_t most)
 {
     struct query query = {scene, packed, number, body_numbered(scene, number), .most = most};
-    const int one_by_one = query.body.is_ball ? packed->looped_spheres : packed->sphere_count;
-    bool more = true;
-    for (int i = 0; i < one_by_one && more; ++i)
-        more = compare(&query, i);
-    for (int i = packed->sphere_count; i < body_count(packed) && more; ++i)
-        more = compare(&query, i);
-    if (more && one_by_one < packed->sphere_count)
-        hierarchy_visit(packed->hierarchy, box_around(&query, scale), compare_sphere, &query);
+    body_visit(packed, box_around(query.body, scale), compare, &query);
     return query;
 }
 
