@@ -15,7 +15,6 @@ struct exr_input {
     size_t size;
 
     /* The rows that were decoded last: a chunk of scan lines, or a row of tiles. */
-    exr_decode_pipeline_t pipeline;
     int part, first, count; /* rows first to first + count - 1 of that part */
     size_t width;
     const char *const *channels; /* that values holds, side by side for each pixel */
