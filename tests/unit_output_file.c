@@ -1,14 +1,11 @@
 /* Output files appear whole or not at all, whatever goes wrong. */
 #include "cmocka_test.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "base/output_file.h"
-#include "image/image.h"
 #include "test_folder.h"
 
 static void put_file(const char *name, const char *text)
@@ -202,49 +199,6 @@ static void test_refusals(void **state)
     assert_int_equal(test_folder_files(0), 2);
 }
 
-/* A disk that is full for files above limit bytes. */
-static void limit_file_size(rlim_t limit)
-{
-    struct rlimit size;
-    assert_int_equal(getrlimit(RLIMIT_FSIZE, &size), 0);
-    size.rlim_cur = limit;
-    assert_int_equal(setrlimit(RLIMIT_FSIZE, &size), 0);
-}
-
-static void assert_full_disk(const struct image *image, const char *name, rlim_t limit)
-{
-    const struct image_metadata metadata = {.scene = "s", .device = "d", .precision = "float"};
-    char line[256], start[64];
-    put_file(name, "old");
-    test_messages_begin();
-    limit_file_size(limit);
-    enum status status = image_write(image, name, &metadata);
-    limit_file_size(RLIM_INFINITY);
-    int lines = test_messages_end(line);
-    snprintf(start, sizeof start, "vkwhitted: error: %s: cannot write: ", name);
-    if (status != STATUS_UNABLE || lines != 1 || strncmp(line, start, strlen(start)) != 0)
-        fail_msg("%s at %lu bytes: status %d, %d lines: %s", name, (unsigned long)limit, status, lines, line);
-    assert_file(name, "old");
-    assert_int_equal(test_folder_files(1), 1);
-}
-
-static void test_full_disk(void **state)
-{
-    (void)state;
-    signal(SIGXFSZ, SIG_IGN);
-    struct image image;
-    assert_int_equal(image_create(500, 300, &image), STATUS_DONE);
-    uint32_t random = 1;
-    for (size_t i = 0; i < 500 * 300 * 3; i++)
-        image.rgb[i] = (float)((random = random * 1664525 + 1013904223) >> 8) * 0x1p-24f;
-    static const char *const names[] = {"a.png", "a.exr", "a.pfm"};
-    static const rlim_t limits[] = {0, 1, 100, 5000, 200000};
-    for (size_t n = 0; n < sizeof names / sizeof names[0]; n++)
-        for (size_t l = 0; l < sizeof limits / sizeof limits[0]; l++)
-            assert_full_disk(&image, names[n], limits[l]);
-    image_destroy(&image);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -256,7 +210,6 @@ int main(void)
         TEST_IN_FOLDER(test_symbolic_link_is_followed),
         TEST_IN_FOLDER(test_longest_name),
         TEST_IN_FOLDER(test_refusals),
-        TEST_IN_FOLDER(test_full_disk),
     };
     return cmocka_run_group_tests_name("output_file", tests, NULL, NULL);
 }
