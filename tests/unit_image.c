@@ -10,8 +10,8 @@
 
 #include "image/exr_input.h"
 #include "image/read.h"
-#include "image/srgb.h"
 #include "image/tile.h"
+#include "image/transfer.h"
 #include "test_folder.h"
 
 static const char long_scene[] = "scenes/a folder with a name that goes on/and on/picture.yaml";
@@ -139,16 +139,13 @@ static void check_png(const struct image *image, enum transfer transfer)
     assert_png_text(png, info, "precision", "double", PNG_TEXT_COMPRESSION_NONE);
     assert_png_text(png, info, "maxBounces", "7", PNG_TEXT_COMPRESSION_NONE);
 
-    struct srgb_encoder encoder;
-    srgb_encoder_init(&encoder);
+    struct transfer_encoder encoder;
+    transfer_encoder_init(transfer, &encoder);
     size_t channels = (size_t)image->width * 3;
     uint8_t *expected = malloc(channels);
     assert_non_null(expected);
     for (unsigned y = 0; y < image->height; y++) {
-        if (transfer == TRANSFER_SRGB)
-            srgb_encode(&encoder, image->rgb + y * channels, channels, expected);
-        else
-            linear_encode(image->rgb + y * channels, channels, expected);
+        transfer_encode(&encoder, image->rgb + y * channels, channels, expected);
         assert_memory_equal(png_get_rows(png, info)[y], expected, channels);
     }
     free(expected);

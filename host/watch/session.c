@@ -192,10 +192,7 @@ enum status session_show(struct session *session, const struct image *image)
     const size_t count = 3 * (size_t)image->width * image->height;
     if (!rgb)
         return STATUS_UNABLE;
-    if (session->options->transfer == TRANSFER_SRGB)
-        srgb_encode(&session->encoder, image->rgb, count, rgb);
-    else
-        linear_encode(image->rgb, count, rgb);
+    transfer_encode(&session->encoder, image->rgb, count, rgb);
     session->shows_difference = false;
     return display_paint(session->display);
 }

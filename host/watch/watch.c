@@ -148,7 +148,7 @@ static enum status follow(struct session *session)
 enum status watch(const struct watch_options *options)
 {
     struct session session = {.options = options};
-    srgb_encoder_init(&session.encoder);
+    transfer_encoder_init(options->transfer, &session.encoder);
     enum status status = inputs_create(options->scene, options->shader_folder, &session.inputs);
     if (status == STATUS_DONE && options->window)
         status = display_connect();
