@@ -1,6 +1,9 @@
 #include "image/read.h"
 
+#include <ctype.h>
+#include <endian.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,25 +38,6 @@ void read_image_destroy(struct read_image *picture)
     *picture = (struct read_image){0};
 }
 
-static bool is_blank(uint8_t byte)
-{
-    return byte == ' ' || byte == '\t' || byte == '\n' || byte == '\r';
-}
-
-/* The next word of a PFM file's header, from *place on, which moves to the byte behind the blank that ends
- * it. Its length is 0 where there is none. */
-static const char *next_word(const struct read_input *input, size_t *place, size_t *length)
-{
-    while (*place < input->size && is_blank(input->bytes[*place]))
-        ++*place;
-    const size_t start = *place;
-    while (*place < input->size && !is_blank(input->bytes[*place]))
-        ++*place;
-    *length = *place < input->size ? *place - start : 0;
-    ++*place;
-    return (const char *)input->bytes + start;
-}
-
 struct pfm_header {
     unsigned long width, height;
     double scale; /* of all values */
@@ -62,27 +46,23 @@ struct pfm_header {
 
 static bool read_pfm_header(const struct read_input *input, struct pfm_header *header)
 {
-    size_t place = 0, length;
-    const char *word = next_word(input, &place, &length);
-    if (length != 2 || memcmp(word, "PF", 2) != 0)
-        return false;
-    unsigned long *const sizes[] = {&header->width, &header->height};
-    for (int i = 0; i < 2; ++i) {
-        word = next_word(input, &place, &length);
-        if (!parse_unsigned(word, length, UINT32_MAX, sizes[i]))
-            return false;
-    }
-    word = next_word(input, &place, &length);
-    header->start = place;
-    return parse_double(word, length, &header->scale) && header->scale != 0;
+    char text[128] = "", width[12], height[12], scale[32];
+    int end = 0;
+    memcpy(text, input->bytes, input->size < sizeof text ? input->size : sizeof text - 1);
+    sscanf(text, " PF%*[ \t\r\n]%11[0-9] %11[0-9] %31[0-9.eE+-]%n", width, height, scale, &end);
+    header->start = (size_t)end + 1;
+    return end > 0 && isspace((unsigned char)text[end]) &&
+           parse_unsigned(width, strlen(width), UINT32_MAX, &header->width) &&
+           parse_unsigned(height, strlen(height), UINT32_MAX, &header->height) &&
+           parse_double(scale, strlen(scale), &header->scale) && header->scale != 0;
 }
 
 static float float_of(const uint8_t *bytes, bool big_endian)
 {
-    uint32_t bits = 0;
+    uint32_t bits;
     float value;
-    for (int i = 0; i < 4; ++i)
-        bits |= (uint32_t)bytes[i] << 8 * (big_endian ? 3 - i : i);
+    memcpy(&bits, bytes, sizeof bits);
+    bits = big_endian ? be32toh(bits) : le32toh(bits);
     memcpy(&value, &bits, sizeof value);
     return value;
 }
