@@ -133,7 +133,7 @@ static void color(const void *context, unsigned x, unsigned y, uint8_t rgb[stati
         relative = judge_pixel(picture->image->rgb + 3 * i, exact).relative;
     for (int c = 0; c < 3 && x >= width; ++c)
         relative = fmax(relative, exact->bound[c] / fmax(fabs(exact->rgb[c]), relative_floor));
-    viridis(1 + log2(relative) / 24, rgb);
+    error_color(relative, rgb);
 }
 
 struct heatmap judgement_heatmap(const struct judged_picture *picture)
