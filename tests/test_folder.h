@@ -42,6 +42,13 @@ static inline int test_folder_teardown(void **state)
     return chdir("/") == 0 && rmdir(test_folder) == 0 ? 0 : -1;
 }
 
+static inline void test_write_file(const char *path, const void *bytes, size_t size)
+{
+    FILE *stream = fopen(path, "wb");
+    if (!stream || fwrite(bytes, 1, size, stream) != size || fclose(stream) != 0)
+        abort();
+}
+
 /* A test that runs in such a folder. */
 #define TEST_IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_folder_setup, test_folder_teardown)
 

@@ -162,29 +162,21 @@ static void wrong_headers(void **state)
     }
 }
 
-static void write_bytes(const char *bytes, size_t size)
-{
-    FILE *file = fopen("flake.npy", "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
-}
-
 static void other_files(void **state)
 {
     (void)state;
     check_refused("No such file or directory");
-    write_bytes("", 0);
+    test_write_file("flake.npy", "", 0);
     check_refused("is not a NumPy file (.npy)");
-    write_bytes("\x93NUMPY\1\0", 8);
+    test_write_file("flake.npy", "\x93NUMPY\1\0", 8);
     check_refused("is not a NumPy file (.npy)");
-    write_bytes("PK\3\4 the archive that numpy.savez() writes", 40);
+    test_write_file("flake.npy", "PK\3\4 the archive that numpy.savez() writes", 40);
     check_refused("is not a NumPy file (.npy)");
-    write_bytes("\x93NUMPY\2\0\x10\0                ", 26);
+    test_write_file("flake.npy", "\x93NUMPY\2\0\x10\0                ", 26);
     check_refused("has version 2.0 of NumPy's format; 1.0 is known");
-    write_bytes("\x93NUMPY\1\0\x76\0{'descr'", 18);
+    test_write_file("flake.npy", "\x93NUMPY\1\0\x76\0{'descr'", 18);
     check_refused("is truncated: it ends in its header");
-    write_bytes("\x93NUMPY\1\0\0\xFF{}", 12);
+    test_write_file("flake.npy", "\x93NUMPY\1\0\0\xFF{}", 12);
     check_refused("has a header of 65290 bytes, more than 4096");
     assert_int_equal(unlink("flake.npy") | mkdir("flake.npy", 0777), 0);
     check_refused("is a folder, not a file");

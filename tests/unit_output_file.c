@@ -8,14 +8,6 @@
 #include "base/output_file.h"
 #include "test_folder.h"
 
-static void put_file(const char *name, const char *text)
-{
-    FILE *stream = fopen(name, "wb");
-    assert_non_null(stream);
-    assert_int_equal(fwrite(text, 1, strlen(text), stream), strlen(text));
-    assert_int_equal(fclose(stream), 0);
-}
-
 static void assert_file(const char *name, const char *text)
 {
     char found[256] = "";
@@ -54,7 +46,7 @@ static void assert_refused(const char *path, const char *reason)
 static void test_commit_replaces(void **state)
 {
     (void)state;
-    put_file("target", "old");
+    test_write_file("target", "old", 3);
     struct output_file file;
     assert_int_equal(output_file_open("target", &file), STATUS_DONE);
     fputs("new text", file.stream);
@@ -80,7 +72,7 @@ static void test_write_at(void **state)
 static void test_abandon_and_check_leave_nothing(void **state)
 {
     (void)state;
-    put_file("target", "old");
+    test_write_file("target", "old", 3);
     struct output_file file;
     assert_int_equal(output_file_open("target", &file), STATUS_DONE);
     fputs("new", file.stream);
@@ -115,7 +107,7 @@ static void assert_claimed(const char *path)
 static void test_claims(void **state)
 {
     (void)state;
-    put_file("target", "old");
+    test_write_file("target", "old", 3);
     assert_int_equal(mkdir("folder", 0777), 0);
     assert_int_equal(symlink("../folder", "folder/itself"), 0);
     assert_int_equal(symlink("target", "link"), 0);
@@ -144,7 +136,7 @@ static void test_permissions(void **state)
     (void)state;
     mode_t before = umask(027);
     commit_text("fresh", "x");
-    put_file("private", "old");
+    test_write_file("private", "old", 3);
     chmod("private", 0604);
     commit_text("private", "new");
     umask(before);
@@ -156,7 +148,7 @@ static void test_permissions(void **state)
 static void test_symbolic_link_is_followed(void **state)
 {
     (void)state;
-    put_file("target", "old");
+    test_write_file("target", "old", 3);
     assert_int_equal(symlink("target", "link"), 0);
     commit_text("link", "new");
     assert_true(S_ISLNK(mode_of("link")));
@@ -180,7 +172,7 @@ static void test_refusals(void **state)
     (void)state;
     assert_int_equal(mkdir("folder", 0777), 0);
     assert_int_equal(mkfifo("fifo", 0666), 0);
-    put_file("read-only", "old");
+    test_write_file("read-only", "old", 3);
     chmod("read-only", 0444);
     assert_refused("folder", "Is a directory");
     assert_refused("folder/", "Is a directory");

@@ -315,10 +315,7 @@ static void kinds_of_pfm(void **state)
         {"PF\n1 2\n-1\nabcd", "expected 24 bytes behind its header, has 4"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
-        FILE *stream = fopen("a.pfm", "wb");
-        assert_non_null(stream);
-        fputs(bad[i].text, stream);
-        fclose(stream);
+        test_write_file("a.pfm", bad[i].text, strlen(bad[i].text));
         assert_refused("a.pfm", &two, bad[i].message);
     }
     assert_refused("b.pfm", &two, "No such file");

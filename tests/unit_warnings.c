@@ -12,14 +12,7 @@
 #include "test_folder.h"
 #include "test_render.h"
 
-#define HEAD                                                                                                 \
-    "camera: { position: [0, 2, -6], look_at: [0, 2, 0] }\n"                                                 \
-    "image: { width: 60, height: 40 }\n"                                                                     \
-    "materials:\n"                                                                                           \
-    "  - { name: Matte, type: matte, color: [0.5, 0.5, 0.5] }\n"                                             \
-    "  - { name: Mirror, type: mirror }\n"                                                                   \
-    "  - { name: Glass, type: transparent, ior: 1.5 }\n"                                                     \
-    "  - { name: Air, type: transparent, ior: 0.6667 }\n"
+#define HEAD TEST_SCENE_HEAD "  - { name: Air, type: transparent, ior: 0.6667 }\n"
 
 #define OVERLAP(place, a, b, others) OVERLAP_OF(place, "\"" a "\"", "\"" b "\"", others)
 #define OVERLAP_OF(place, a, b, others)                                                                      \
