@@ -46,7 +46,7 @@ static void check_rows(const char *what)
 {
     struct scene scene;
     if (read_text(FLAKE, &scene) != STATUS_DONE)
-        fail_msg("%s is refused: %s", what, messages);
+        fail_msg("%s is refused: %s", what, test_messages);
     assert_int_equal(scene.objects[0].type, OBJECT_SPHERES);
     assert_int_equal(scene.objects[0].spheres.count, ROWS);
     for (size_t i = 0; i < 4 * ROWS; ++i)
@@ -101,9 +101,9 @@ static void check_refused(const char *message)
     char expected[512];
     snprintf(expected, sizeof expected, PLACE "%s\n", message);
     enum status status = read_text(FLAKE, &scene);
-    if (status != STATUS_REFUSED || strncmp(messages, expected, strlen(expected)) != 0)
-        fail_msg("status %d, expected:\n%sfound:\n%s", (int)status, expected, messages);
-    assert_non_null(strstr(messages, "^\n"));
+    if (status != STATUS_REFUSED || strncmp(test_messages, expected, strlen(expected)) != 0)
+        fail_msg("status %d, expected:\n%sfound:\n%s", (int)status, expected, test_messages);
+    assert_non_null(strstr(test_messages, "^\n"));
     assert_true(!scene.objects && !scene.path);
 }
 
