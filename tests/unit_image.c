@@ -242,7 +242,7 @@ static void test_exr_parts(void **state)
         assert_int_equal(image_write(&image, "a.exr", &placed), STATUS_DONE);
         struct exr_input input;
         int parts;
-        assert_int_equal(exr_input_open("a.exr", NULL, 0, &input), STATUS_DONE);
+        assert_int_equal(exr_input_open("a.exr", &input), STATUS_DONE);
         assert_int_equal(exr_get_count(input.context, &parts), EXR_ERR_SUCCESS);
         assert_int_equal(parts, bounds ? 6 : 3);
         for (int part = 0; part < 3 + 3 * bounds; ++part) {

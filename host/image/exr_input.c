@@ -15,42 +15,17 @@ static enum status refuse(const struct exr_input *input)
     return STATUS_REFUSED;
 }
 
-static int64_t on_read(exr_const_context_t context, void *user_data, void *bytes, uint64_t size,
-                       uint64_t offset, exr_stream_error_func_ptr_t report_error)
-{
-    (void)context;
-    (void)report_error;
-    const struct exr_input *input = user_data;
-    const uint64_t left = offset < input->size ? input->size - offset : 0;
-    const uint64_t read = size < left ? size : left; /* the library sees that it is less than it needs */
-    if (read > 0)
-        memcpy(bytes, input->bytes + offset, read);
-    return (int64_t)read;
-}
-
-static int64_t on_size(exr_const_context_t context, void *user_data)
-{
-    (void)context;
-    return (int64_t)((const struct exr_input *)user_data)->size;
-}
-
-enum status exr_input_open(const char *path, const void *bytes, size_t size, struct exr_input *input)
+enum status exr_input_open(const char *path, struct exr_input *input)
 {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     initializer.error_handler_fn = exr_error_keep;
     initializer.max_tile_width = initializer.max_tile_height = LARGEST_TILE;
-    *input = (struct exr_input){.path = path, .bytes = bytes, .size = size};
-    if (bytes) {
-        initializer.user_data = input;
-        initializer.read_fn = on_read;
-        initializer.size_fn = on_size;
-    } else {
-        off_t file_size;
-        const int file = input_file_open(path, true, &file_size);
-        if (file < 0)
-            return input_file_refuse(path);
-        close(file);
-    }
+    *input = (struct exr_input){.path = path};
+    off_t size;
+    const int file = input_file_open(path, true, &size);
+    if (file < 0)
+        return input_file_refuse(path);
+    close(file);
     exr_error_clear();
     return exr_succeeded(exr_start_read(&input->context, path, &initializer)) ? STATUS_DONE : refuse(input);
 }

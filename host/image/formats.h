@@ -29,10 +29,11 @@ struct png_source {
  * what a row fails with. */
 enum status png_write(const struct png_source *source, const char *path);
 
-/* What the readers behind image_read() share. Each reports its failures. */
+/* What the readers behind image_read() share. Each reports its failures, upon which the picture is the
+ * caller's to destroy. */
 struct read_input {
-    const char *path; /* for messages */
-    const uint8_t *bytes;
+    const char *path;
+    const uint8_t *bytes; /* the file's content; EXR, of which some rows are read at a time: NULL */
     size_t size;
     const struct image_wanted *wanted;
 };

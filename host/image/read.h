@@ -32,9 +32,6 @@ struct image_wanted {
  * reported: STATUS_REFUSED for a file that is not such a picture, STATUS_UNABLE where it cannot be read. */
 enum status image_read(const char *path, const struct image_wanted *wanted, struct read_image *picture);
 
-/* The same for a file's content in memory; path is for messages and the format. */
-enum status image_read_bytes(const char *path, const void *bytes, size_t size,
-                             const struct image_wanted *wanted, struct read_image *picture);
 void read_image_destroy(struct read_image *picture);
 
 #endif

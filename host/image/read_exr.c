@@ -118,7 +118,7 @@ static enum status read(const struct read_input *input, struct exr_input *exr, s
 enum status image_read_exr(const struct read_input *input, struct read_image *picture)
 {
     struct exr_input exr;
-    enum status status = exr_input_open(input->path, input->bytes, input->size, &exr);
+    enum status status = exr_input_open(input->path, &exr);
     if (status == STATUS_DONE)
         status = read(input, &exr, picture);
     exr_input_close(&exr);

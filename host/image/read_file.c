@@ -94,35 +94,28 @@ enum status image_read_pfm(const struct read_input *input, struct read_image *pi
     return STATUS_DONE;
 }
 
-enum status image_read_bytes(const char *path, const void *bytes, size_t size,
-                             const struct image_wanted *wanted, struct read_image *picture)
+enum status image_read(const char *path, const struct image_wanted *wanted, struct read_image *picture)
 {
     static enum status (*const readers[])(const struct read_input *input, struct read_image *picture) = {
         [IMAGE_FORMAT_PNG] = image_read_png,
         [IMAGE_FORMAT_EXR] = image_read_exr,
         [IMAGE_FORMAT_PFM] = image_read_pfm,
     };
+    struct read_input input = {.path = path, .wanted = wanted};
+    char *bytes = NULL;
     *picture = (struct read_image){0};
     const enum image_format format = image_format_of(path);
     if (format == IMAGE_FORMAT_UNKNOWN)
         return STATUS_REFUSED;
-    const struct read_input input = {path, bytes, size, wanted};
+    if (format != IMAGE_FORMAT_EXR) {
+        bytes = text_file_read(path, false, largest_file, &input.size);
+        if (!bytes)
+            return input_file_refuse(path);
+    }
+    input.bytes = (const uint8_t *)bytes;
     const enum status status = readers[format](&input, picture);
     if (status != STATUS_DONE)
         read_image_destroy(picture);
-    return status;
-}
-
-enum status image_read(const char *path, const struct image_wanted *wanted, struct read_image *picture)
-{
-    size_t size;
-    *picture = (struct read_image){0};
-    if (image_format_of(path) == IMAGE_FORMAT_UNKNOWN)
-        return STATUS_REFUSED;
-    char *bytes = text_file_read(path, false, largest_file, &size);
-    if (!bytes)
-        return input_file_refuse(path);
-    enum status status = image_read_bytes(path, bytes, size, wanted, picture);
     free(bytes);
     return status;
 }
