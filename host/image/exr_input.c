@@ -21,8 +21,7 @@ enum status exr_input_open(const char *path, struct exr_input *input)
     initializer.error_handler_fn = exr_error_keep;
     initializer.max_tile_width = initializer.max_tile_height = LARGEST_TILE;
     *input = (struct exr_input){.path = path};
-    off_t size;
-    const int file = input_file_open(path, true, &size);
+    const int file = input_file_open(path, true);
     if (file < 0)
         return input_file_refuse(path);
     close(file);

@@ -200,7 +200,7 @@ static enum status check_size(const struct header *header, size_t size, char mes
     return STATUS_DONE;
 }
 
-static enum status read_header(struct reading *reading, size_t size, size_t most_rows)
+static enum status read_header(struct reading *reading, size_t most_rows)
 {
     char text[MOST_HEADER + 1];
     ssize_t got = input_file_read(reading->file, text, MOST_HEADER);
@@ -213,20 +213,20 @@ static enum status read_header(struct reading *reading, size_t size, size_t most
     if (header->rows > most_rows)
         return refuse(reading->message, "has %zu rows; a scene may have %d spheres in all", header->rows,
                       SCENE_MAX_SPHERES);
-    if (lseek(reading->file, (off_t)header->size, SEEK_SET) < 0)
+    const off_t size = lseek(reading->file, 0, SEEK_END);
+    if (size < 0 || lseek(reading->file, (off_t)header->size, SEEK_SET) < 0)
         return refuse_errno(reading->message);
-    return check_size(header, size, reading->message);
+    return check_size(header, (size_t)size, reading->message);
 }
 
 enum status npy_read(const char *path, const struct npy_column columns[NPY_COLUMNS], size_t most_rows,
                      float (**rows)[NPY_COLUMNS], size_t *row_count, char message[NPY_MESSAGE])
 {
     struct reading reading = {.columns = columns, .message = message};
-    off_t size = 0;
-    reading.file = input_file_open(path, true, &size);
+    reading.file = input_file_open(path, true);
     enum status status = reading.file < 0 ? refuse_errno(message) : STATUS_DONE;
     if (status == STATUS_DONE)
-        status = read_header(&reading, (size_t)size, most_rows);
+        status = read_header(&reading, most_rows);
     if (status == STATUS_DONE) {
         reading.rows = malloc((reading.header.rows + 1) * sizeof *reading.rows);
         status = read_values(&reading);
