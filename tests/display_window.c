@@ -119,10 +119,10 @@ static void test_too_large(void **state)
 static void test_title(void **state)
 {
     (void)state;
-    assert_true(x11_window_has_name(&window, "vkwhitted"));
+    assert_true(x11_window_title_has(&window, "vkwhitted"));
     display_set_title(display, "a title line");
     for (double start = clock_ms(); clock_ms() < start + patience_ms;) {
-        if (x11_window_has_name(&window, "a title line"))
+        if (x11_window_title_has(&window, "a title line"))
             return;
         wait_for_input(0.01);
     }
