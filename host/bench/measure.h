@@ -55,7 +55,8 @@ enum { TRUTH_SHARE = 120, FILTERED_SHARE = 220, START_SHARE = 240, RUNS_SHARE = 
 
 /* A bench of one scene. */
 struct bench {
-    const struct bench_options *options;
+    struct vulkan_context *context; /* NULL: the CPU alone */
+    bool quick;
     const struct bench_effort *effort;
     double start_ms;
     struct progress progress;
