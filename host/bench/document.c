@@ -110,6 +110,7 @@ static json_t *describe_point(const struct bench_point *point)
 /* How RMSE falls with the samples that the family varies. */
 static json_t *describe_convergence(const struct bench *bench, enum bench_family family)
 {
+    json_t *values = json_array(), *rmse = json_array();
     double x[BENCH_MAX_SETTINGS], y[BENCH_MAX_SETTINGS];
     size_t fitted = 0;
     for (size_t i = 0; i < bench->count; ++i) {
@@ -117,14 +118,16 @@ static json_t *describe_convergence(const struct bench *bench, enum bench_family
         if (point->family != family || point->plan.fast)
             continue;
         unsigned samples = family == FAMILY_SAMPLES ? point->picture.samples : point->picture.light_samples;
+        append(&values, json_integer(samples));
+        append(&rmse, json_real_or_null(point->error.rmse));
         if (samples < SLOPE_FROM || samples > SLOPE_TO)
             continue;
         x[fitted] = samples;
         y[fitted++] = point->error.rmse;
     }
-    return json_pack("{s:s, s:o, s:i, s:i}", "family", family_names[family], "slope",
-                     json_real_or_null(log_log_slope(x, y, fitted)), "slope_from", SLOPE_FROM, "slope_to",
-                     SLOPE_TO);
+    return json_pack("{s:s, s:o, s:o, s:o, s:i, s:i}", "family", family_names[family], "values", values,
+                     "rmse", rmse, "slope", json_real_or_null(log_log_slope(x, y, fitted)), "slope_from",
+                     SLOPE_FROM, "slope_to", SLOPE_TO);
 }
 
 static json_t *describe_recommendation(const struct bench *bench, double error)

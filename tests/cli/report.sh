@@ -37,9 +37,9 @@ browser() {
     open_page measure.html
     not_said 'WRONG' out
     not_said ':CONSOLE' err
-    # 9 points against error; 3 + 10 rows of tables.
-    said '^390: 1 charts, 9 points, 13 rows' out
-    said '^1400: 1 charts, 9 points, 13 rows' out
+    # 9 points against error, 5 and 3 of convergence; 3 + 10 rows of tables.
+    said '^390: 3 charts, 17 points, 13 rows' out
+    said '^1400: 3 charts, 17 points, 13 rows' out
     open_page page.html
     perl -0777 -ne 'print /(<svg.*?<\/svg>)/s' out >chart.svg # as CONTRIBUTING.md does
     expect 0 xmllint --noout chart.svg
