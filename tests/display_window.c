@@ -281,6 +281,8 @@ static struct display_input gather_input(void)
         sum.zoom += input.zoom;
         sum.closed = sum.closed || input.closed;
         sum.print_camera = sum.print_camera || input.print_camera;
+        sum.save = sum.save || input.save;
+        sum.difference = sum.difference != input.difference;
         complete = input.reset;
     }
     assert_true(complete);
@@ -299,6 +301,8 @@ static void assert_input(const struct display_input *input, const struct display
             fail_msg("number %zu is %g instead of %g", i, numbers[i][0], numbers[i][1]);
     assert_int_equal(input->closed, expected->closed);
     assert_int_equal(input->print_camera, expected->print_camera);
+    assert_int_equal(input->save, expected->save);
+    assert_int_equal(input->difference, expected->difference);
 }
 
 static void test_keys(void **state)
@@ -311,15 +315,21 @@ static void test_keys(void **state)
     } cases[] = {
         {XK_P, LockMask, {.print_camera = true}},
         {XK_p, 0, {.print_camera = true}},
+        {XK_s, 0, {.save = true}},
+        {XK_d, 0, {.difference = true}},
         {XK_Escape, 0, {.closed = true}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         x11_window_key(&window, XK_x, 0);
-        x11_window_key(&window, XK_p, ControlMask);
+        x11_window_key(&window, XK_s, ControlMask);
         x11_window_key(&window, cases[i].symbol, cases[i].modifiers);
         struct display_input input = gather_input();
         assert_input(&input, &cases[i].input);
     }
+    x11_window_key(&window, XK_d, 0);
+    x11_window_key(&window, XK_d, 0);
+    struct display_input input = gather_input();
+    assert_input(&input, &(struct display_input){0});
 }
 
 static void test_pointer(void **state)

@@ -21,8 +21,8 @@ enum status bench_scene(const struct job_options *options, struct vulkan_context
  * each of four errors. */
 void bench_print_scene(const json_t *scene, FILE *stream);
 
-/* Writes the bench document as one HTML page that needs nothing else: report.html with the document in it.
- * The file appears whole or not at all. */
+/* Writes the bench document as one HTML page that needs nothing else: report.html with the document in it. The
+ * file appears whole or not at all. */
 enum status report_write(const json_t *document, const char *path);
 
 /* Reads an earlier bench's JSON file; STATUS_REFUSED (reported) if it is not one. The caller frees *document.

@@ -16,11 +16,8 @@ void viridis(double level, uint8_t *rgb)
         rgb[c] = (uint8_t)lround(ramp[quarter][c] + fraction * (ramp[quarter + 1][c] - ramp[quarter][c]));
 }
 
-static void color_difference(const void *context, unsigned x, unsigned y, uint8_t rgb[static 3])
+void heatmap_color(const float *a, const float *b, uint8_t *rgb)
 {
-    const struct image_pair *pair = context;
-    const size_t first = 3 * ((size_t)y * pair->a->width + x);
-    const float *a = pair->a->rgb + first, *b = pair->b->rgb + first;
     double relative_error = 0.0;
     if (memcmp(a, b, 3 * sizeof *a) == 0) {
         memset(rgb, 0, 3);
@@ -38,6 +35,13 @@ static void color_difference(const void *context, unsigned x, unsigned y, uint8_
             relative_error = fmax(relative_error, fabs((double)a[c] - (double)b[c]) / magnitude);
     }
     viridis(relative_error > 0.0 ? 1.0 + log2(relative_error) / 24.0 : 0.0, rgb);
+}
+
+static void color_difference(const void *context, unsigned x, unsigned y, uint8_t rgb[static 3])
+{
+    const struct image_pair *pair = context;
+    const size_t first = 3 * ((size_t)y * pair->a->width + x);
+    heatmap_color(pair->a->rgb + first, pair->b->rgb + first, rgb);
 }
 
 struct heatmap difference_heatmap(const struct image_pair *pair)

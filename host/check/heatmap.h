@@ -20,10 +20,13 @@ struct heatmap {
 /* Writes an 8-bit PNG, whole or not at all. STATUS_UNABLE (reported) where it cannot be written. */
 enum status heatmap_write(const struct heatmap *heatmap, const char *path);
 
-/* The difference between pictures of the same size: a pixel's largest relative error over the channels,
+/* The 8-bit colour of the difference between two pixels: the largest relative error over the channels,
  * |a - b| / max(|a|, |b|), on a logarithmic scale in the colours of viridis. Dark violet is 2^-24 (half a
  * unit in the last place of a float) or less, blue 2^-18, teal 2^-12, green 2^-6, yellow 1 or more. Black:
- * the same bits; white: not the same bits, and not finite on one side at least. The pair is the context. */
+ * the same bits; white: not the same bits, and not finite on one side at least. */
+void heatmap_color(const float *a, const float *b, uint8_t *rgb);
+
+/* These colours for pictures of the same size; the pair is the context. */
 struct image_pair {
     const struct image *a, *b;
 };

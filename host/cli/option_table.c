@@ -219,7 +219,7 @@ const struct option_entry option_table[] = {
     {"window", "", WATCH, FLAG(window),
      "show it in a window (default on a display, without -o): drag,\n"
      "Shift-drag and wheel move the camera, R resets and P prints it,\n"
-     "Esc ends"},
+     "S saves the picture, D shows where it differs, Esc ends"},
 
     {"quick", "", BENCH, FLAG(quick), "fewer settings and runs: half a minute a scene"},
     {"report", "", BENCH, OUTPUT("FILE.html", report), "all of it on one page, with charts"},

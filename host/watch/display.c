@@ -100,6 +100,8 @@ static void on_key(GLFWwindow *window, int key, int scancode, int action, int mo
         glfwSetWindowShouldClose(window, GLFW_TRUE);
     input->reset |= code == 'r';
     input->print_camera |= code == 'p';
+    input->save |= code == 's';
+    input->difference ^= code == 'd'; /* twice is back again */
 }
 
 static const char *glfw_reason(void)

@@ -15,11 +15,11 @@ void display_disconnect(void);
 /* What the user has asked for since the last time. Dragged distances are in heights of the shown picture,
  * x to the right and y down, as camera_motion.h has them; zoom is in its steps, positive: nearer. */
 struct display_input {
-    bool closed;              /* the window's button, or Escape */
-    double orbit_x, orbit_y;  /* dragging */
-    double pan_x, pan_y;      /* the same with Shift */
-    double zoom;              /* wheel */
-    bool reset, print_camera; /* R, P */
+    bool closed;                                /* the window's button, or Escape */
+    double orbit_x, orbit_y;                    /* dragging */
+    double pan_x, pan_y;                        /* the same with Shift */
+    double zoom;                                /* wheel */
+    bool reset, print_camera, save, difference; /* R, P, S, D */
 };
 
 /* Opens a window of this size. On failure (reported) *display is NULL. */

@@ -196,6 +196,7 @@ enum status session_show(struct session *session, const struct image *image)
         srgb_encode(&session->encoder, image->rgb, count, rgb);
     else
         linear_encode(image->rgb, count, rgb);
+    session->shows_difference = false;
     return display_paint(session->display);
 }
 

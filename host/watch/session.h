@@ -45,6 +45,8 @@ struct session {
     struct picture *traced;  /* whose scene the tracer holds; may be the same */
     char failure[256];       /* why the shown one is not what the files say; empty: it is */
     struct display *display; /* NULL: none, or not open yet */
+    bool shows_difference;   /* between it and the reference, in the window */
+    size_t differing;        /* pixels, while it does */
     struct srgb_encoder encoder;
 };
 

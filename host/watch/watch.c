@@ -2,9 +2,13 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "base/clock.h"
+#include "check/compare.h"
+#include "check/heatmap.h"
 #include "vulkan/probe.h"
 #include "watch/camera_motion.h"
 
@@ -17,7 +21,9 @@ static void set_title(const struct session *session)
     const struct picture *shown = session->shown;
     const char *device = session->context->properties.deviceName, *failure = session->failure;
     char title[1024], state[512];
-    if (shown)
+    if (session->shows_difference)
+        snprintf(state, sizeof state, "%zu pixels differ from the reference", session->differing);
+    else if (shown)
         snprintf(state, sizeof state, "%s - %.1f ms", device, shown->dispatch_ms);
     else
         snprintf(state, sizeof state, "%s", device);
@@ -44,6 +50,42 @@ static void move_camera(struct session *session, const struct display_input *inp
     session_preview(session, (unsigned)fmin(fmax(coarseness, 1), 16));
 }
 
+/* Under the scene's name in the working folder, with a number that is free. */
+static void save_picture(const struct session *session)
+{
+    const struct picture *shown = session->shown;
+    const char *slash = strrchr(session->options->scene, '/');
+    const char *name = slash ? slash + 1 : session->options->scene;
+    char path[512];
+    unsigned number = 1;
+    do
+        snprintf(path, sizeof path, "%.*s-%u.png", (int)fmin((double)strcspn(name, "."), 400), name,
+                 number++);
+    while (access(path, F_OK) == 0);
+    if (job_write(&shown->job, &shown->image, (const char *const[]){path}, 1, session->options->transfer,
+                  session->context->properties.deviceName) == STATUS_DONE)
+        log_notice("picture %u: saved as %s", shown->number, path);
+}
+
+/* Shows where the picture and the reference differ, or the picture again. */
+static void toggle_difference(struct session *session)
+{
+    const struct image *image = &session->shown->image;
+    struct rendering reference;
+    struct comparison comparison;
+    if (session->shows_difference)
+        session_show(session, image);
+    else if (render_on_cpu(&session->shown->job.plan, &reference) == STATUS_DONE) {
+        image_compare(image, &reference.image, NULL, &comparison);
+        session->shows_difference = true;
+        session->differing = comparison.differing;
+        unsigned char *rgb = display_picture(session->display, image->width, image->height);
+        for (size_t i = 0; rgb && i < (size_t)image->width * image->height; ++i)
+            heatmap_color(image->rgb + 3 * i, reference.image.rgb + 3 * i, rgb + 3 * i);
+        image_destroy(&reference.image);
+    }
+}
+
 static void obey(struct session *session, const struct display_input *input)
 {
     if (moves(input)) {
@@ -61,6 +103,10 @@ static void obey(struct session *session, const struct display_input *input)
         camera_print(stdout, &session->camera);
         fflush(stdout);
     }
+    if (input->save)
+        save_picture(session);
+    if (input->difference)
+        toggle_difference(session);
 }
 
 /* Takes input to the window, for which it waits so long, and does what it asks for. */
