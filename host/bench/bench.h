@@ -21,8 +21,11 @@ enum status bench_scene(const struct job_options *options, struct vulkan_context
  * each of four errors. */
 void bench_print_scene(const json_t *scene, FILE *stream);
 
-/* Writes the bench document as one HTML page that needs nothing else: report.html with the document in it. The
- * file appears whole or not at all. */
+/* All points of all scenes of the document, one a line under a line of names (RFC 4180). The file appears
+ * whole or not at all, as does the report. */
+enum status bench_csv_write(const json_t *document, const char *path);
+
+/* Writes the bench document as one HTML page that needs nothing else: report.html with the document in it. */
 enum status report_write(const json_t *document, const char *path);
 
 /* Reads an earlier bench's JSON file; STATUS_REFUSED (reported) if it is not one. The caller frees *document.

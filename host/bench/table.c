@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/output_file.h"
 #include "bench/document.h"
 
 /* The points against the one truth or the other. */
@@ -72,4 +73,70 @@ void bench_print_scene(const json_t *scene, FILE *stream)
     print_points(scene, true, stream);
     fputc('\n', stream);
     print_conclusions(scene, stream);
+}
+
+/* A field: text in quotes, numbers as they are, null empty. */
+static void put_field(FILE *stream, const json_t *value)
+{
+    if (json_is_string(value)) {
+        fputc('"', stream);
+        for (const char *text = json_string_value(value); *text; ++text)
+            fputs(*text == '"' ? "\"\"" : (char[]){*text, '\0'}, stream);
+        fputc('"', stream);
+    } else if (json_is_integer(value)) {
+        fprintf(stream, "%lld", (long long)json_integer_value(value));
+    } else if (json_is_real(value)) {
+        fprintf(stream, "%.9g", json_real_value(value));
+    } else if (json_is_boolean(value)) {
+        fprintf(stream, "%d", json_is_true(value));
+    }
+}
+
+/* The fields of a value, or with names_only their names: those of an object's or array's elements are its own
+ * and theirs, as in error_rmse. Each field but the first of a line, which is the scene, has a comma before
+ * it. */
+static void put_fields(FILE *stream, const char *name, json_t *value, bool names_only)
+{
+    char longer[100];
+    const char *key;
+    json_t *element;
+    size_t i;
+    json_object_foreach(value, key, element)
+    {
+        snprintf(longer, sizeof longer, "%s%s%s", name, *name ? "_" : "", key);
+        put_fields(stream, longer, element, names_only);
+    }
+    json_array_foreach(value, i, element)
+    {
+        snprintf(longer, sizeof longer, "%s_%zu", name, i + 1);
+        put_fields(stream, longer, element, names_only);
+    }
+    if (json_is_object(value) || json_is_array(value))
+        return;
+    fprintf(stream, ",%s", names_only ? name : "");
+    if (!names_only)
+        put_field(stream, value);
+}
+
+enum status bench_csv_write(const json_t *document, const char *path)
+{
+    json_t *scene, *point;
+    size_t s, p;
+    struct output_file file;
+    enum status status = output_file_open(path, &file);
+    if (status != STATUS_DONE)
+        return status;
+    json_array_foreach(json_object_get(document, "scenes"), s, scene)
+        json_array_foreach(json_object_get(scene, "points"), p, point)
+    {
+        if (s == 0 && p == 0) {
+            fputs("scene", file.stream);
+            put_fields(file.stream, "", point, true);
+            fputs("\r\n", file.stream);
+        }
+        put_field(file.stream, json_object_get(scene, "scene"));
+        put_fields(file.stream, "", point, false);
+        fputs("\r\n", file.stream);
+    }
+    return output_file_commit(&file);
 }

@@ -28,6 +28,8 @@ static enum status measure(const struct options *options, struct vulkan_context 
 static enum status deliver(const struct options *options, json_t *document, const json_t *old)
 {
     enum status status = options->report ? report_write(document, options->report) : STATUS_DONE;
+    if (options->csv)
+        status = status_worse(status, bench_csv_write(document, options->csv));
     if (options->json)
         status = status_worse(status, json_write(json_incref(document), options->json));
     if (old) {

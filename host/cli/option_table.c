@@ -223,6 +223,7 @@ const struct option_entry option_table[] = {
 
     {"quick", "", BENCH, FLAG(quick), "fewer settings and runs: half a minute a scene"},
     {"report", "", BENCH, OUTPUT("FILE.html", report), "all of it on one page, with charts"},
+    {"csv", "", BENCH, OUTPUT("FILE", csv), "the measurements, one a line"},
     {"compare", "", BENCH, TEXT("OLD.json", compare),
      "what became faster, slower or less accurate beyond noise since\n"
      "the bench that wrote this with --json"},

@@ -40,7 +40,7 @@ struct options {
         against; /* float: against the reference, bit for bit; otherwise against the exact picture */
     const char *stats, *json, *junit, *heatmap;
     const char *picture; /* that check judges instead of one of its own */
-    const char *report, *compare; /* bench; compare is the JSON file of an earlier one */
+    const char *csv, *report, *compare; /* bench; compare is the JSON file of an earlier one */
     bool quick;
     unsigned x, y;                /* of pixel */
     struct shader_folder shaders; /* without path: the program's own shader; the job's plan points to it */

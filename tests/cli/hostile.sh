@@ -16,7 +16,7 @@ eaten_inputs() {
         refused 2 '.*is to be written' render $quick s.yaml --stats $json
         refused 2 '.*is to be written' check --backend cpu --against double s.yaml --json $json
         refused 2 '.*is to be written' bench --backend cpu s.yaml --json $json
-        refused 2 '.*is to be written' bench --backend cpu s.yaml --report $json
+        refused 2 '.*is to be written' bench --backend cpu s.yaml --csv $json
         refused 2 '.*is to be written' pixel s.yaml 1 1 --json $json
     done
     echo '{}' >old.json
@@ -55,11 +55,11 @@ results_at_the_end() {
     mkdir small
     unshare --mount sh -c 'mount -t tmpfs -o size=64k tmpfs small' 2>/dev/null || skip 'no file systems to be mounted here'
     expect 3 unshare --mount sh -c "mount -t tmpfs -o size=16k tmpfs small
-        \"$VKWHITTED\" bench -q --quick --backend cpu s.yaml --report small/r.html --json j.json
+        \"$VKWHITTED\" bench -q --quick --backend cpu s.yaml --report small/r.html --json j.json --csv c.csv
         status=\$?; [ -z \"\$(ls -A small)\" ] || exit 99; exit \$status"
     said '^vkwhitted: error: small/r.html: cannot write: No space left on device$'
     [ "$(wc -l <err)" -eq 1 ] || fail 'not one line'
-    [ -s j.json ] && [ -s out ] || fail 'results are lost'
+    [ -s j.json ] && [ -s c.csv ] && [ -s out ] || fail 'results are lost'
     expect 3 unshare --mount sh -c "mount -t tmpfs -o size=4k tmpfs small
         \"$VKWHITTED\" render -q --backend cpu $figure -o small/a.png -o b.png --stats c.json"
     [ -s b.png ] && [ -s c.json ] || fail 'results are lost'

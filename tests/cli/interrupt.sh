@@ -44,7 +44,7 @@ render_on_device() { at_random_moments 400 render $large "$figure" -o a.png -o b
 render_on_cpu() { at_random_moments 200 render $large --backend cpu "$figure" -o a.png -o b.exr --stats c.json; }
 writing() { at_random_moments 150 render --backend cpu --max-bounces 0 --size 500x400 "$SOURCE_DIR/scenes/figure_2a.yaml" -o a.png -o b.exr -o c.pfm; }
 check() { at_random_moments 400 check $large "$figure" --json a.json --heatmap b.png; }
-bench() { at_random_moments 400 bench --size 4000x4000 "$figure" --json a.json --report a.html; }
+bench() { at_random_moments 400 bench --size 4000x4000 "$figure" --json a.json --csv a.csv --report a.html; }
 pixel() { at_random_moments 600 pixel --max-bounces 64 --samples 4096 "$SOURCE_DIR/scenes/hard/diamond.yaml" 120 80 --json a.json; }
 watch() { at_random_moments 600 watch --size 60x40 "$figure" -o a.png -o b.exr; }
 packing() {
