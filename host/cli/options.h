@@ -58,6 +58,9 @@ enum status command_line_read(int argc, char **argv, struct options *options);
 /* Whether --heatmap names a folder. */
 bool options_heatmap_folder(const struct options *options);
 
+/* How many of the outputs are EXR files. */
+size_t options_exr_outputs(const struct options *options);
+
 void options_destroy(struct options *options);
 
 /* The caller finds out by fflush() whether the text could be written. documents.cmake reads it, too. */
