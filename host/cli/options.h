@@ -39,7 +39,7 @@ struct options {
     enum precision
         against; /* float: against the reference, bit for bit; otherwise against the exact picture */
     const char *stats, *json, *junit, *heatmap;
-    const char *picture; /* that check judges instead of one of its own */
+    const char *picture;                /* that check judges instead of one of its own */
     const char *csv, *report, *compare; /* bench; compare is the JSON file of an earlier one */
     bool quick;
     unsigned x, y;                /* of pixel */
