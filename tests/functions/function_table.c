@@ -71,10 +71,7 @@ FUNCTIONS(UNTYPED)
     }
 
 const struct function_test function_tests[] = {
-    GENERAL(divide),
-    GENERAL(root),
     GENERAL(unit),
-    GENERAL(hash),
     GENERAL(sobol_point),
     GENERAL(meet_sphere),
     TEST(meet_sphere, "/never_entered", .never_entered = true, NEVER_ENTERED),
