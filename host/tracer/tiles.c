@@ -78,13 +78,13 @@ static void copy_row(const struct dispatch_frame *frame, enum value_type type, s
         to->image->truncation[place + i] = wide ? (float)doubles[CHANNELS * i + 3] : floats[CHANNELS * i + 3];
 }
 
-/* Takes the values of the frame's samples. */
-static enum status take(struct course *course, struct dispatch_frame *frame, bool last)
+/* Takes the values of the frame's tile, which is finished. */
+static enum status take(struct course *course, struct dispatch_frame *frame)
 {
     const struct dispatcher *dispatcher = &course->tracer->dispatcher;
     const struct portion *portion = &frame->portion;
     struct reference_rays *rays = course->values->rays;
-    enum status status = last || rays ? dispatch_frame_fetch(dispatcher, frame) : STATUS_DONE;
+    enum status status = dispatch_frame_fetch(dispatcher, frame);
     course->end_ms = clock_ms();
     if (status != STATUS_DONE)
         return status;
@@ -93,8 +93,6 @@ static enum status take(struct course *course, struct dispatch_frame *frame, boo
         rays->secondary += counts[CHANNELS * i];
         rays->shadow += counts[CHANNELS * i + 1];
     }
-    if (!last)
-        return STATUS_DONE;
     const unsigned x = portion->tile_x - course->window.x, y = portion->tile_y - course->window.y;
     for (unsigned row = 0; row < portion->tile_height; ++row)
         copy_row(frame, dispatcher->value_type, (size_t)row * portion->tile_width, portion->tile_width,
@@ -102,16 +100,9 @@ static enum status take(struct course *course, struct dispatch_frame *frame, boo
     return STATUS_DONE;
 }
 
-/* Starts the frame's samples from the first on. */
-static enum status start_samples(struct course *course, struct dispatch_frame *frame, uint32_t first)
+static uint64_t samples_of(const struct course *course, uint64_t pixels)
 {
-    const struct dispatcher *dispatcher = &course->tracer->dispatcher;
-    frame->portion.first_sample = first;
-    frame->portion.end_sample =
-        first + smaller(dispatcher->size.samples, (uint32_t)dispatcher->scene->samples - first);
-    frame->portion.goes_on = 0;
-    frame->portion.most_turns = course->tracer->turns;
-    return dispatch_frame_start(dispatcher, frame);
+    return pixels * (uint64_t)course->tracer->dispatcher.scene->samples;
 }
 
 static uint64_t tile_pixels(const struct dispatch_frame *frame)
@@ -138,6 +129,7 @@ static enum status start_next_tile(struct course *course, struct dispatch_frame 
         .tile_height = course->row_height,
         .picture_width = (uint32_t)scene->width,
         .picture_height = (uint32_t)scene->height,
+        .most_turns = tracer->turns,
     };
     course->x += frame->portion.tile_width;
     if (course->x == course->window.width) {
@@ -145,18 +137,15 @@ static enum status start_next_tile(struct course *course, struct dispatch_frame 
         course->y += course->row_height;
     }
     course->told[frame - tracer->frames] = 0;
-    progress_begin(course->progress, tile_pixels(frame) * (uint64_t)scene->samples);
-    return start_samples(course, frame, 0);
+    progress_begin(course->progress, samples_of(course, tile_pixels(frame)));
+    return dispatch_frame_start(&tracer->dispatcher, frame);
 }
 
 /* Tells how many samples of the tile there are. */
 static void tell(struct course *course, const struct dispatch_frame *frame, uint32_t unfinished)
 {
-    const struct portion *portion = &frame->portion;
     uint64_t *told = &course->told[frame - course->tracer->frames];
-    const uint64_t of_portion =
-        (tile_pixels(frame) - unfinished) * (portion->end_sample - portion->first_sample);
-    const uint64_t samples = tile_pixels(frame) * portion->first_sample + of_portion;
+    const uint64_t samples = samples_of(course, tile_pixels(frame) - unfinished);
     progress_advance(course->progress, samples - *told);
     *told = samples;
 }
@@ -177,7 +166,6 @@ static enum status advance(struct course *course, struct dispatch_frame *frame)
     enum { LEAST_PIXELS = 4096 };
     struct tracer *tracer = course->tracer;
     const struct dispatch_size *size = &tracer->dispatcher.size;
-    const uint32_t samples = (uint32_t)tracer->dispatcher.scene->samples;
     uint32_t unfinished;
     double device_ms = 0;
     enum status status = dispatch_frame_wait(&tracer->dispatcher, frame, &device_ms, &unfinished);
@@ -193,9 +181,7 @@ static enum status advance(struct course *course, struct dispatch_frame *frame)
         frame->portion.most_turns = tracer->turns;
         return dispatch_frame_start(&tracer->dispatcher, frame);
     }
-    const uint32_t end = frame->portion.end_sample;
-    status = take(course, frame, end == samples);
-    return status == STATUS_DONE && end < samples ? start_samples(course, frame, end) : status;
+    return take(course, frame);
 }
 
 /* Has each frame render tiles until there are none left. */

@@ -10,11 +10,10 @@
 struct shader_choice tracer_shader(const struct vulkan_context *context, const struct packed_scene *scene,
                                    const struct tracer_options *options)
 {
-    bool native = context->arithmetic.division_exact && context->arithmetic.root_exact;
-    enum whitted_variant variant = options->double_precision ? WHITTED_DOUBLE
-                                   : options->fast           ? WHITTED_FAST
-                                   : native                  ? WHITTED_EXACT
-                                                             : WHITTED_CORRECTED;
+    enum whitted_variant variant = options->double_precision                ? WHITTED_DOUBLE
+                                   : options->fast                          ? WHITTED_FAST
+                                   : needs_correction(&context->arithmetic) ? WHITTED_CORRECTED
+                                                                            : WHITTED_EXACT;
     return (struct shader_choice){
         .variant = options->event_room > 0 ? WHITTED_EXACT_EVENTS + variant : variant,
         .scene_in_storage = scene_needs_storage(context, scene),

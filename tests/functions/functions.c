@@ -149,9 +149,8 @@ static enum status run_tests(const struct plan *plan, struct vulkan_context *con
         free(expected);
         return status;
     }
-    bool corrected = device.corrected_division || device.corrected_root;
     printf("%s%s, seed %lu, %lu cases each from %lu\n", context->properties.deviceName,
-           corrected ? ", corrected" : "", plan->seed, plan->cases, plan->first);
+           device.corrected ? ", corrected" : "", plan->seed, plan->cases, plan->first);
     printf("%-34s %10s %12s %12s\n", "function", "differing", "device ns", "C ns");
     size_t matching = 0;
     for (size_t i = 0; i < function_test_count && result <= STATUS_DIFFERS; ++i) {
