@@ -118,7 +118,7 @@ static void run(struct packed_scene *packed, int cases)
 }
 
 struct counts {
-    long met, tied, blocked, resumed, wrong;
+    long met, blocked, resumed, wrong;
 };
 
 static void compare(const struct packed_scene *scene, const struct ray *ray, const struct segment *segment,
