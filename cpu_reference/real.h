@@ -74,9 +74,9 @@ static inline struct vec3 normalize(struct vec3 v)
     return scale(1 / square_root(dot(v, v)), v);
 }
 
-/* v is a unit vector but for what float's rounding makes of the scene's normals and indices of refraction: one
- * Newton step towards length 1, which leaves 3/2 of that error's square. That is below double's rounding, and not
- * below binary128's. */
+/* v is a unit vector but for what float's rounding makes of the scene's normals and indices of refraction:
+ * one Newton step towards length 1, which leaves 3/2 of that error's square. That is below double's rounding,
+ * and not below binary128's. */
 static inline struct vec3 renormalize(struct vec3 v)
 {
 #if REFERENCE_BITS == 128

@@ -1,6 +1,6 @@
 # The window, on X servers that the tests start and kill.
 pkg_check_modules(x11 REQUIRED IMPORTED_TARGET x11)
-foreach(name window input watch)
+foreach(name window watch)
     add_executable(display_${name} display_${name}.c)
     target_include_directories(display_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
     target_compile_definitions(display_${name} PRIVATE SOURCE_DIR="${PROJECT_SOURCE_DIR}" VKWHITTED="$<TARGET_FILE:vkwhitted>")

@@ -282,17 +282,6 @@ static void test_print(void **state)
     setlocale(LC_ALL, "C");
 }
 
-static void test_print_reads_back(void **state)
-{
-    (void)state;
-    for (random_state = 0; random_state < 500; ++random_state) {
-        uint64_t seed = random_state;
-        struct scene_camera camera = random_camera();
-        assert_round_trip(&camera);
-        random_state = seed;
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -300,7 +289,6 @@ int main(void)
         cmocka_unit_test(test_orbit_stops_at_the_poles), cmocka_unit_test(test_pan_follows_the_pointer),
         cmocka_unit_test(test_zoom_is_a_factor),         cmocka_unit_test(test_hostile_motions),
         cmocka_unit_test(test_ends_of_the_world),        cmocka_unit_test(test_print),
-        cmocka_unit_test(test_print_reads_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

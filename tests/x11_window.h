@@ -37,15 +37,6 @@ static inline bool x11_window_find(struct x11_window *window)
     return window->id != None;
 }
 
-static inline bool x11_window_has_name(const struct x11_window *window, const char *expected)
-{
-    char *name = NULL;
-    bool same = XFetchName(window->server, window->id, &name) && strcmp(name, expected) == 0;
-    if (name)
-        XFree(name);
-    return same;
-}
-
 static inline XWindowAttributes x11_window_attributes(const struct x11_window *window)
 {
     XWindowAttributes attributes;

@@ -11,15 +11,11 @@
 enum status bench_document(int argc, char **argv, bool quick, const struct vulkan_context *context,
                            json_t **document);
 
-struct bench_options {
-    struct job_options job;         /* of these the size and quiet */
-    struct vulkan_context *context; /* NULL: the CPU alone */
-    bool quick;
-};
-
-/* Measures one scene as the options say. *scene gets an element for the document's "scenes"; NULL with any
- * status but STATUS_DONE. A setting that the device cannot do is left out with a warning. */
-enum status bench_scene(const struct bench_options *options, const char *path, json_t **scene);
+/* Measures one scene: of the job's options with the size, the shaders and quiet; without a context on the CPU
+ * alone; with fewer settings and runs if quick. *scene gets an element for the document's "scenes"; NULL with
+ * any status but STATUS_DONE. */
+enum status bench_scene(const struct job_options *options, struct vulkan_context *context, bool quick,
+                        const char *path, json_t **scene);
 
 /* A scene of the bench document for people: a line a setting, then the fitted slopes and a recommendation for
  * each of four errors. */

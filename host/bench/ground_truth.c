@@ -115,28 +115,21 @@ void grid_pixels_destroy(struct grid_pixels *pixels)
     *pixels = (struct grid_pixels){0};
 }
 
-/* Raises *most, as ground_truth_bounces() does. */
-static enum status find_bounces(const struct packed_scene *scene, unsigned *most)
-{
-    struct packed_scene pilot = *scene;
-    while (*most < ALL_BOUNCES) {
-        double secondary, work;
-        unsigned next = *most + STRIDE_OF_BOUNCES;
-        pilot.max_bounces = (int)(next < ALL_BOUNCES ? next : ALL_BOUNCES);
-        enum status status = estimate(&pilot, &secondary, &work);
-        if (status != STATUS_DONE || secondary > most_rays_a_pixel)
-            return status;
-        *most = (unsigned)pilot.max_bounces;
-    }
-    return STATUS_DONE;
-}
-
 enum status ground_truth_bounces(const struct packed_scene *packed, unsigned *most)
 {
     struct packed_scene scene;
-    *most = (unsigned)packed->max_bounces;
     enum status status = reference_scene(packed, 0, &scene);
-    return status == STATUS_DONE ? find_bounces(&scene, most) : status;
+    *most = (unsigned)packed->max_bounces;
+    while (status == STATUS_DONE && *most < ALL_BOUNCES) {
+        double secondary, work;
+        unsigned next = *most + STRIDE_OF_BOUNCES;
+        scene.max_bounces = (int)(next < ALL_BOUNCES ? next : ALL_BOUNCES);
+        status = estimate(&scene, &secondary, &work);
+        if (status != STATUS_DONE || secondary > most_rays_a_pixel)
+            break;
+        *most = (unsigned)scene.max_bounces;
+    }
+    return status;
 }
 
 enum status ground_truth_create(const struct scene *scene, const struct packed_scene *other,

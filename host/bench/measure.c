@@ -51,7 +51,7 @@ static enum status start_point(struct bench *bench, struct bench_point *point)
     if (status == STATUS_DONE)
         status = pack_scene(&bench->job.packed, &bench->job.scene, picture, &point->packed);
     if (status == STATUS_DONE && on_device)
-        status = tracer_create(bench->options->context, &point->packed,
+        status = tracer_create(bench->context, &point->packed,
                                &(struct tracer_options){.double_precision = is_double,
                                                         .fast = point->plan.fast,
                                                         .shaders = point->plan.shaders},
@@ -62,7 +62,7 @@ static enum status start_point(struct bench *bench, struct bench_point *point)
     if (status == STATUS_DONE && on_device) {
         struct render_plan in_float = point->plan;
         in_float.precision = PRECISION_FLOAT;
-        status = rays_on_device(bench->options->context, &in_float, &point->rays);
+        status = rays_on_device(bench->context, &in_float, &point->rays);
     }
     if (status != STATUS_DONE)
         stop_point(point);

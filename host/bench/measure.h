@@ -40,22 +40,23 @@ struct bench_point {
 /* What a bench may cost. */
 struct bench_effort {
     struct {
-        double quad, with_double;
-    } truth;               /* in rays times objects */
+        double quad, with_double; /* by precision, in rays times objects */
+    } truth;
     double longest_run_ms; /* a family ends where its next run would take longer */
     struct {
-        size_t least, most;      /* of a point */
-        double point_ms, all_ms; /* of a point, of all points, but for their least runs */
+        size_t least, most;      /* warm runs of a point */
+        double point_ms, all_ms; /* when a point, and when all points, make no more than their least runs */
     } runs;
     double whole_ms; /* a bench that has taken longer starts no more knobs and makes the least runs only */
 };
 
-/* Of the progress bar. */
+/* Parts of the progress bar. */
 enum { TRUTH_SHARE = 120, FILTERED_SHARE = 220, START_SHARE = 240, RUNS_SHARE = 300 };
 
 /* A bench of one scene. */
 struct bench {
-    const struct bench_options *options;
+    struct vulkan_context *context; /* NULL: the CPU alone */
+    bool quick;
     const struct bench_effort *effort;
     double start_ms;
     struct progress progress;

@@ -53,20 +53,22 @@ static enum status find_truths(struct bench *bench)
     return status;
 }
 
-enum status bench_scene(const struct bench_options *options, const char *path, json_t **scene)
+enum status bench_scene(const struct job_options *options, struct vulkan_context *context, bool quick,
+                        const char *path, json_t **scene)
 {
     static enum status (*const steps[])(struct bench *) = {examine, find_truths, bench_measure};
     struct bench bench = {
-        .options = options,
-        .effort = options->quick ? &quick_effort : &full_effort,
+        .context = context,
+        .quick = quick,
+        .effort = quick ? &quick_effort : &full_effort,
         .start_ms = clock_ms(),
     };
     *scene = NULL;
-    enum status status = job_create(&options->job, path, &bench.job);
+    enum status status = job_create(options, path, &bench.job);
     if (status != STATUS_DONE)
         return status;
     progress_start(&bench.progress, "measuring", TRUTH_SHARE + FILTERED_SHARE + START_SHARE + RUNS_SHARE,
-                   options->job.plan.quiet);
+                   options->plan.quiet);
     for (size_t i = 0; i < sizeof steps / sizeof *steps && status == STATUS_DONE; ++i)
         status = steps[i](&bench);
     progress_end(&bench.progress);

@@ -53,8 +53,8 @@ static void append_count(struct bench *bench, struct bench_point *knob, unsigned
 /* The knobs that trade rays for error; those of pixel samples in exact mode alone. */
 static void append_knobs(struct bench *bench, bool fast)
 {
-    const bool quick = bench->options->quick;
-    struct bench_point knob = {.backend = bench->options->context ? BACKEND_VULKAN : BACKEND_CPU,
+    const bool quick = bench->quick;
+    struct bench_point knob = {.backend = bench->context ? BACKEND_VULKAN : BACKEND_CPU,
                                .plan.fast = fast,
                                .picture = bench->picture};
     struct picture_settings *picture = &knob.picture;
@@ -83,8 +83,8 @@ static void append_knobs(struct bench *bench, bool fast)
 
 void bench_settings(struct bench *bench)
 {
-    const struct vulkan_context *context = bench->options->context;
-    const bool quick = bench->options->quick;
+    const struct vulkan_context *context = bench->context;
+    const bool quick = bench->quick;
     for (int i = context ? 0 : DEVICE_MODES; i < (quick ? QUICK_MODES : ALL_MODES); ++i)
         if (i >= DEVICE_MODES || modes[i].plan.precision == PRECISION_FLOAT || context->has_float64) {
             struct bench_point *point = &bench->points[bench->count++];

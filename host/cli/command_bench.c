@@ -8,14 +8,9 @@
 /* Measures all scenes into the document. */
 static enum status measure(const struct options *options, struct vulkan_context *context, json_t *document)
 {
-    const struct bench_options bench = {
-        .job = options->job,
-        .context = context,
-        .quick = options->quick,
-    };
     for (size_t i = 0; i < options->scene_count; ++i) {
         json_t *scene;
-        enum status status = bench_scene(&bench, options->scenes[i], &scene);
+        enum status status = bench_scene(&options->job, context, options->quick, options->scenes[i], &scene);
         if (status != STATUS_DONE)
             return status;
         if (i > 0)

@@ -109,12 +109,12 @@ bool options_heatmap_folder(const struct options *options)
     return length > 0 && options->heatmap[length - 1] == '/';
 }
 
-static bool writes_only_exr(const struct options *options)
+size_t options_exr_outputs(const struct options *options)
 {
+    size_t count = 0;
     for (size_t i = 0; i < options->output_count; ++i)
-        if (image_format_of(options->outputs[i]) != IMAGE_FORMAT_EXR)
-            return false;
-    return true;
+        count += image_format_of(options->outputs[i]) == IMAGE_FORMAT_EXR;
+    return count;
 }
 
 static enum status check_consistency(const struct options *options)
@@ -161,7 +161,8 @@ static enum status check_consistency(const struct options *options)
          "--heatmap FILE.png takes one scene file; for several name a folder, DIR/"},
         {heatmap_file && !(suffix && strcasecmp(suffix, ".png") == 0),
          "--heatmap takes FILE.png or a folder, DIR/"},
-        {options->job.tile.count > 0 && !writes_only_exr(options), "--tile writes .exr"},
+        {options->job.tile.count > 0 && options_exr_outputs(options) < options->output_count,
+         "--tile writes .exr"},
     };
     for (size_t i = 0; i < sizeof rules / sizeof *rules; ++i)
         if (rules[i].is_so) {

@@ -8,14 +8,6 @@
 #include "check/spot_check.h"
 #include "tracer/job.h"
 
-static bool writes_exr(const struct options *options)
-{
-    for (size_t i = 0; i < options->output_count; ++i)
-        if (image_format_of(options->outputs[i]) == IMAGE_FORMAT_EXR)
-            return true;
-    return false;
-}
-
 /* Rays that max_bounces cuts off count against --max-error, and may be too much for it. */
 static void report_truncation(const struct options *options, const struct job *job, const struct image *image)
 {
@@ -83,7 +75,7 @@ enum status command_render(const struct options *options)
     if (status != STATUS_DONE)
         return status;
     status = float_limit_warn(&job);
-    job.plan.bound_truncation = options->job.has_max_error || writes_exr(options);
+    job.plan.bound_truncation = options->job.has_max_error || options_exr_outputs(options) > 0;
     double start = clock_ms();
     if (status == STATUS_DONE && options->backend == BACKEND_VULKAN)
         status = vulkan_context_create(&options->vulkan, &context);

@@ -39,7 +39,7 @@ struct options {
     enum precision
         against; /* float: against the reference, bit for bit; otherwise against the exact picture */
     const char *stats, *json, *junit, *heatmap;
-    const char *picture; /* that check judges instead of one of its own */
+    const char *picture;                /* that check judges instead of one of its own */
     const char *csv, *report, *compare; /* bench; compare is the JSON file of an earlier one */
     bool quick;
     unsigned x, y;                /* of pixel */
@@ -57,6 +57,9 @@ enum status command_line_read(int argc, char **argv, struct options *options);
 
 /* Whether --heatmap names a folder. */
 bool options_heatmap_folder(const struct options *options);
+
+/* How many of the outputs are EXR files. */
+size_t options_exr_outputs(const struct options *options);
 
 void options_destroy(struct options *options);
 

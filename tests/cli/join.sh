@@ -78,7 +78,6 @@ refusals() {
 usage() {
     refused 2 'join needs -o FILE' join 1.exr
     refused 2 "join takes the files of a picture's tiles" join -o a.pfm
-    refused 2 'join takes no option --samples' join 1.exr -o a.pfm --samples 2
     refused 2 '--tile writes .exr' render "$figure" --tile 1/2 -o a.png
     refused 2 '--tile 3/2: expected I/N' render "$figure" --tile 3/2 -o a.exr
     refused 2 '--tile 0/2: expected I/N' render "$figure" --tile 0/2 -o a.exr

@@ -72,3 +72,5 @@ only_files() {
 }
 
 json() { "$JSON_GET" "$@" || fail "json_get $*"; }
+# json_is VALUE FILE KEY...
+json_is() { local expected=$1; shift; [ "$(json "$@")" = "$expected" ] || fail "$* is $(json "$@"), expected $expected"; }

@@ -112,36 +112,34 @@ size_16384() {
     [ "$(wc -c <a.pfm)" -eq $((16384 * 16384 * 12 + 3 + 12 + 5)) ] || fail 'the size of a.pfm'
 }
 
-# stats_agree KEY VALUE
-stats_agree() { [ "$(json stats.json $1)" = "$2" ] || fail "$1 is $(json stats.json $1), expected $2"; }
 stats_positive() { awk -v x="$(json stats.json $1)" 'BEGIN { exit !(x > 0 && x < 1e15) }' || fail "$1 is not positive"; }
 
 stats() {
     local device_rays
     expect 0 "$VKWHITTED" render $small --samples 2 --max-bounces 3 --repeat 2 "$figure" --stats stats.json
-    stats_agree scene "$figure"
-    stats_agree width 60
-    stats_agree height 40
-    stats_agree precision float
-    stats_agree mode exact
-    stats_agree max_bounces 3
-    stats_agree samples 2
-    stats_agree light_samples 32
-    stats_agree 'rays primary' $((60 * 40 * 2))
+    json_is "$figure" stats.json scene
+    json_is 60 stats.json width
+    json_is 40 stats.json height
+    json_is float stats.json precision
+    json_is exact stats.json mode
+    json_is 3 stats.json max_bounces
+    json_is 2 stats.json samples
+    json_is 32 stats.json light_samples
+    json_is $((60 * 40 * 2)) stats.json rays primary
     for key in setup_ms first_dispatch_ms dispatch_ms rays_per_second; do stats_positive $key; done
     [ -n "$(json stats.json device)" ] && [ -n "$(json stats.json driver)" ] || fail 'no device'
     json stats.json write_ms >/dev/null
     device_rays=$(json stats.json rays secondary)/$(json stats.json rays shadow)
     expect 0 "$VKWHITTED" render $small --samples 2 --max-bounces 3 --backend cpu "$figure" --stats stats.json
-    stats_agree device cpu
-    stats_agree 'rays primary' $((60 * 40 * 2))
+    json_is cpu stats.json device
+    json_is $((60 * 40 * 2)) stats.json rays primary
     [ "$(json stats.json rays secondary)/$(json stats.json rays shadow)" = "$device_rays" ] || fail 'ray counts differ'
     expect 0 "$VKWHITTED" render $small --max-bounces 0 --crop 1,2,3,4 --fast "$figure" --stats stats.json
-    stats_agree width 3
-    stats_agree height 4
-    stats_agree mode fast
-    stats_agree 'rays primary' 12
-    stats_agree 'rays secondary' 0
+    json_is 3 stats.json width
+    json_is 4 stats.json height
+    json_is fast stats.json mode
+    json_is 12 stats.json rays primary
+    json_is 0 stats.json rays secondary
     only_files stats.json
 }
 

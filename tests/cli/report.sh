@@ -1,9 +1,8 @@
-# The page that bench --report writes, from a document with all that is awkward in it. The environment names
-# WRITE_REPORT, too.
+# The page that bench --report writes, from a document with all that is awkward in it.
 . "$(dirname "$0")/lib.sh"
 document=$SOURCE_DIR/tests/report/document.json
 
-write() { expect 0 "$WRITE_REPORT" "$document" page.html; }
+write() { expect 0 "$BINARY_DIR/tests/write_report" "$document" page.html; }
 
 # The document is in the page as it is, and cannot break out of its element.
 document_in_page() {
@@ -21,12 +20,6 @@ document_in_page() {
         'scenes 0 points 2 options' 'scenes 0 points 3 time_ms'; do
         [ "$(json page.json $keys)" = "$(json "$document" $keys)" ] || fail "$keys: $(json page.json $keys)"
     done
-}
-
-unwritable() {
-    expect 3 "$WRITE_REPORT" "$document" no/such/folder/page.html
-    said '^vkwhitted: error: no/such/folder/page.html: '
-    only_files
 }
 
 browser() {

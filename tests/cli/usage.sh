@@ -74,14 +74,9 @@ crop_outside() {
 
 option_of_another_command() {
     refused 2 'check takes no option -o' check -o a.png "$figure"
-    refused 2 'pixel takes no option --transfer' pixel --transfer srgb "$figure"
-    refused 2 'check takes no option --stats' check --stats a.json "$figure"
     refused 2 'render takes no option --tolerance' render --tolerance 1 "$figure"
-    refused 2 'watch takes no option --backend' watch --backend cpu -o a.png "$figure"
-    refused 2 'watch takes no option --stats' watch --stats a.json -o a.png "$figure"
-    refused 2 'devices takes no option --shaders' devices --shaders .
-    refused 2 'check takes no option --check' check --check "$figure"
-    refused 2 'render takes no option --heatmap' render --heatmap a.png "$figure"
+    refused 2 'pixel takes no option --fast' pixel --fast "$figure" 1 1
+    refused 2 'join takes no option --samples' join 1.exr -o a.pfm --samples 2
     refused 2 'devices takes no option --size' devices --size 60x40
     only_files
 }
@@ -107,11 +102,9 @@ impossible_together() {
     only_files
 }
 
-several_scenes() {
-    refused 2 'expected a scene file' render
+number_of_scenes() {
     refused 2 'expected a scene file' check
     refused 2 'render takes one scene file' render "$figure" "$figure"
-    refused 2 'expected a scene file' watch -o a.png
     refused 2 'watch takes one scene file' watch -o a.png "$figure" "$figure"
     refused 2 'devices takes no scene' devices "$figure"
 }

@@ -232,104 +232,21 @@ idle() {
     finish
 }
 
-# The pipeline that renders in small portions cannot be built, of a picture that needs it: the next picture has
-# another one.
-checked_in_the_background() {
-    start --check
+# checks_in_the_background FACTOR OPTION...: the picture is found to be right, and wrong with that factor in a formula.
+checks_in_the_background() {
+    local factor=$1
+    shift
+    start --check "$@"
     eventually grep -q '^vkwhitted: picture 1: agrees with the reference in all 2400 pixels' err
-    turn 'pipeline rebuilt' edit 's/matte.b \* sin_tan)/matte.b * sin_tan * real(1.01))/' shaders/shade.glsl
+    turn 'pipeline rebuilt' edit "s/matte.b \* sin_tan)/matte.b * sin_tan * real($factor))/" shaders/shade.glsl
     eventually grep -Eq '^vkwhitted: picture 2: [1-9][0-9]* of 2400 pixels differ from the reference' err
     finish
 }
-
-# In double, both sides, and where they differ less than float tells.
+checked_in_the_background() { checks_in_the_background 1.01 --validate; }
+# Both sides are in double, and the factor is 1 in float.
 checked_in_double() {
     "$VKWHITTED" devices | grep -q 'fp64 *yes' || skip 'no fp64'
-    start --check --precision double
-    eventually grep -q '^vkwhitted: picture 1: agrees with the reference in all 2400 pixels' err
-    turn 'pipeline rebuilt' edit 's/matte.b \* sin_tan)/matte.b * sin_tan * real(1.0000000001lf))/' shaders/shade.glsl
-    eventually grep -Eq '^vkwhitted: picture 2: [1-9][0-9]* of 2400 pixels differ from the reference' err
-    finish
-}
-
-validated() {
-    "$VKWHITTED" devices --validate >/dev/null 2>&1 || skip 'no validation layer'
-    start --validate
-    turn 'same pipeline' edit 's/fov_y: [0-9]*/fov_y: 50/' s.yaml
-    turn 'pipeline rebuilt' edit 's/matte.b \* sin_tan)/matte.b * sin_tan * real(1.01))/' shaders/shade.glsl
-    finish
-    not_said validation
-}
-
-# put HOW CONTENT FILE: as editors save.
-put() {
-    case $1 in
-    0) cp "$2" "$3.new" && mv "$3.new" "$3" ;;
-    1) cat "$2" >"$3" ;;
-    2) (head -c 300 "$2"; sleep 0.03; tail -c +301 "$2") >"$3" ;;
-    3) rm "$3" && cp "$2" "$3" ;;
-    esac || fail "put $*"
-}
-
-# The good and the broken contents of both files, and the pictures of the good ones: expected/SCENE-SHADER.
-prepare_saves() {
-    local shade=shaders/shade.glsl i j
-    mkdir contents expected
-    for i in 0 1 2; do sed "s/fov_y: 60/fov_y: 6$i/" s.yaml >contents/scene-good-$i; done
-    sed 's/radius: /radius: -/' s.yaml >contents/scene-bad-0
-    head -c 700 s.yaml >contents/scene-bad-1
-    : >contents/scene-bad-2
-    cp $shade contents/shader-good-0
-    for i in 1 2; do
-        sed "s/(matte.a + matte.b \* sin_tan)/(matte.a + matte.b * sin_tan * real(1.$i))/" $shade >contents/shader-good-$i
-    done
-    sed 's/real3/reel3/' $shade >contents/shader-bad-0
-    (cat $shade; echo '#if 1') >contents/shader-bad-1
-    head -c 1000 $shade >contents/shader-bad-2
-    for i in 0 1 2; do
-        [ $i = 0 ] || turn picture put 0 contents/scene-good-$i s.yaml
-        for j in 0 1 2; do
-            [ $i$j = 00 ] || turn picture put 0 contents/shader-good-$j $shade
-            cp a.pfm expected/$i-$j
-            [ $j -gt 0 ] || picture_is_rendered_scene
-        done
-    done
-    [ "$(md5sum expected/* | cut -d' ' -f1 | sort -u | wc -l)" -eq 9 ] || fail 'the pictures are not nine'
-}
-
-resident_kib() { awk '$1 == "VmRSS:" { print $2 }' /proc/$watcher/status; }
-
-# Good and broken saves, in all ways and in bursts: after each the picture is that of the last good state.
-saves() {
-    local files=(s.yaml shaders/shade.glsl) names=(scene shader) now=(good-2 good-2) good=2-2 settled_kib=0
-    local saves=${VKWHITTED_WATCH_SAVES:-60} which kind burst before i
-    RANDOM=1
-    start
-    prepare_saves
-    for ((i = 0; i < saves; ++i)); do
-        which=$((RANDOM % 2))
-        before=$(turns)
-        for ((burst = RANDOM % 4 ? 1 : 4; burst > 1; --burst)); do
-            put $((RANDOM % 4)) contents/${names[which]}-bad-$((RANDOM % 3)) ${files[which]}
-        done
-        while
-            kind=$([ $((RANDOM % 5)) -lt 2 ] && echo bad || echo good)-$((RANDOM % 3))
-            [ $kind = ${now[which]} ]
-        do :; done
-        now[which]=$kind
-        put $((RANDOM % 4)) contents/${names[which]}-$kind ${files[which]}
-        eventually has_turns $((before + 1))
-        case ${now[*]} in
-        *bad*) eventually ends_like "(refused|failed).* stays$" ;;
-        *) good=${now[0]#good-}-${now[1]#good-} && eventually ends_like pipeline ;;
-        esac
-        eventually cmp -s a.pfm expected/$good
-        [ $i -ne 20 ] || settled_kib=$(resident_kib)
-    done
-    [ "$SANITIZE" = ON ] || [ $(($(resident_kib) - settled_kib)) -le 2048 ] ||
-        fail "memory grew from $settled_kib to $(resident_kib) KiB"
-    finish
-    said '^vkwhitted: .*same pipeline'
+    checks_in_the_background 1.0000000001lf --precision double
 }
 
 # Whichever call of a turn fails, or loses the device: that is said, and the next turn's picture is right.
