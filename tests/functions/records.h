@@ -114,8 +114,9 @@ STRUCT(MatteRecord, MATTE)
     DO(sobol_point)                                                                                          \
     DO(meet_sphere)                                                                                          \
     DO(meet_plane)                                                                                           \
-    DO(nearest_hit) DO(sphere_shadows) DO(plane_shadows) DO(reflect) DO(refract) DO(oren_nayar)              \
-        DO(point_light) DO(quad_light)
+    DO(nearest_hit)                                                                                          \
+    DO(sphere_shadows) DO(plane_shadows) DO(reflect) DO(refract) DO(oren_nayar) DO(point_light)              \
+        DO(quad_light)
 
 #define MAKE_RECORDS(name)                                                                                   \
     STRUCT(name##_input, INPUT_##name)                                                                       \
