@@ -63,8 +63,12 @@ static inline struct tracked_approach track_approach(layout_vec4 center_radius, 
     double apart = length(to_center), radius = (double)center_radius.w;
     double center_offset = length(approach.center_offset);
     double half_chord_squared = (double)at_least_zero(approach.half_chord_squared);
+    /* apart * sin() of the angle to the centre, whose own sine and cosine are center_offset and along: where
+     * the line is at right angles to the way to the centre, the second order is all there is */
     double e_clearance =
-        error.origin + fabs((double)approach.along) * error.direction + rounding(apart + radius);
+        error.origin +
+        (fabs((double)approach.along) + error.origin + apart * error.direction / 2) * error.direction +
+        rounding(apart + radius);
     return (struct tracked_approach){
         .along = (double)approach.along,
         .e_along = error.origin + apart * error.direction + rounding(apart),

@@ -9,7 +9,7 @@
 #include <time.h>
 
 #include "base/clock.h"
-#include "image/srgb.h"
+#include "image/transfer.h"
 #include "x11_window.h"
 #include "xvfb.h"
 
@@ -56,7 +56,7 @@ static bool has_title_with(const char *part)
 /* What a window of the picture's size should show, as RGB; from the picture of the scene as it is now. */
 static void render_expected(uint8_t rgb[3 * PIXELS])
 {
-    static struct srgb_encoder encoder;
+    static struct transfer_encoder encoder;
     static float linear[3 * PIXELS];
     assert_true(run(VKWHITTED " render -q s.yaml -o expected.pfm"));
     FILE *file = fopen("expected.pfm", "rb");
@@ -64,9 +64,9 @@ static void render_expected(uint8_t rgb[3 * PIXELS])
     assert_int_equal(fseek(file, -(long)sizeof linear, SEEK_END), 0);
     assert_int_equal(fread(linear, sizeof *linear, 3 * PIXELS, file), 3 * PIXELS);
     fclose(file);
-    srgb_encoder_init(&encoder);
+    transfer_encoder_init(TRANSFER_SRGB, &encoder);
     for (int y = 0; y < HEIGHT; ++y) /* a PFM begins at the bottom */
-        srgb_encode(&encoder, linear + 3 * WIDTH * (HEIGHT - 1 - y), 3 * WIDTH, rgb + 3 * WIDTH * y);
+        transfer_encode(&encoder, linear + 3 * WIDTH * (HEIGHT - 1 - y), 3 * WIDTH, rgb + 3 * WIDTH * y);
 }
 
 /* NULL: black. */

@@ -8,23 +8,12 @@
 
 /* Writes what stands before an array: the header of that dictionary, filled up with spaces to 64 bytes as
  * NumPy does. */
-static void npy_write_header(FILE *file, int version, const char *dictionary)
+static void npy_write_header(FILE *file, const char *dictionary)
 {
-    const size_t before = version == 1 ? 10 : 12, size = before + strlen(dictionary) + 1;
-    const size_t padding = (64 - size % 64) % 64, length = size - before + padding;
-    const unsigned char start[] = {0x93,
-                                   'N',
-                                   'U',
-                                   'M',
-                                   'P',
-                                   'Y',
-                                   (unsigned char)version,
-                                   0,
-                                   (unsigned char)length,
-                                   (unsigned char)(length >> 8),
-                                   0,
-                                   0};
-    assert_int_equal(fwrite(start, 1, before, file), before);
+    const size_t size = 10 + strlen(dictionary) + 1, padding = (64 - size % 64) % 64;
+    fwrite("\x93NUMPY\1", 1, 8, file);
+    putc((int)(size - 10 + padding) & 0xFF, file);
+    putc((int)(size - 10 + padding) >> 8, file);
     fprintf(file, "%s%*s\n", dictionary, (int)padding, "");
 }
 
@@ -36,7 +25,7 @@ static void npy_write(const char *path, size_t count, float (*rows)[4])
     assert_non_null(file);
     snprintf(dictionary, sizeof dictionary, "{'descr': '<f4', 'fortran_order': False, 'shape': (%zu, 4), }",
              count);
-    npy_write_header(file, 1, dictionary);
+    npy_write_header(file, dictionary);
     assert_int_equal(fwrite(rows, sizeof *rows, count, file), count);
     assert_int_equal(fclose(file), 0);
 }

@@ -42,12 +42,20 @@ static inline int test_folder_teardown(void **state)
     return chdir("/") == 0 && rmdir(test_folder) == 0 ? 0 : -1;
 }
 
+static inline void test_write_file(const char *path, const void *bytes, size_t size)
+{
+    FILE *stream = fopen(path, "wb");
+    if (!stream || fwrite(bytes, 1, size, stream) != size || fclose(stream) != 0)
+        abort();
+}
+
 /* A test that runs in such a folder. */
 #define TEST_IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_folder_setup, test_folder_teardown)
 
 /* Standard error goes into a pipe (64 KiB at most) between the two; the second returns how many lines were
- * written and puts the first of them (as much as fits) into line. */
+ * written, which are in test_messages then, and puts the first of them (as much as fits) into line. */
 static int test_messages_fd, test_saved_stderr;
+static char test_messages[1 << 16];
 
 static inline void test_messages_begin(void)
 {
@@ -66,13 +74,12 @@ static inline int test_messages_end(char line[256])
     fflush(stderr);
     dup2(test_saved_stderr, STDERR_FILENO);
     close(test_saved_stderr);
-    char text[4096];
-    ssize_t length = read(test_messages_fd, text, sizeof text - 1);
+    ssize_t length = read(test_messages_fd, test_messages, sizeof test_messages - 1);
     close(test_messages_fd);
-    text[length > 0 ? length : 0] = '\0';
-    snprintf(line, 256, "%.*s", (int)strcspn(text, "\n"), text);
+    test_messages[length > 0 ? length : 0] = '\0';
+    snprintf(line, 256, "%.*s", (int)strcspn(test_messages, "\n"), test_messages);
     int lines = 0;
-    for (const char *end = text; (end = strchr(end, '\n')); end++)
+    for (const char *end = test_messages; (end = strchr(end, '\n')); end++)
         lines++;
     return lines;
 }

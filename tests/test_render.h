@@ -24,6 +24,15 @@ static inline int test_close_device(void **state)
     return vulkan_context_destroy(&test_context) == STATUS_DONE ? 0 : -1;
 }
 
+/* The beginning of a scene file, behind which there may be more materials. */
+#define TEST_SCENE_HEAD                                                                                      \
+    "camera: { position: [0, 2, -6], look_at: [0, 2, 0] }\n"                                                 \
+    "image: { width: 60, height: 40 }\n"                                                                     \
+    "materials:\n"                                                                                           \
+    "  - { name: Matte, type: matte, color: [0.5, 0.5, 0.5], roughness: 0.6 }\n"                             \
+    "  - { name: Mirror, type: mirror }\n"                                                                   \
+    "  - { name: Glass, type: transparent, ior: 1.5 }\n"
+
 /* The scene's own settings. */
 static inline struct picture_settings test_settings(const struct scene *scene)
 {

@@ -14,6 +14,7 @@
 #include "base/clock.h"
 #include "base/interrupt.h"
 #include "npy_file.h"
+#include "scene/warnings.h"
 #include "test_folder.h"
 #include "test_render.h"
 #include "tracer/reference_scene.h"
@@ -66,9 +67,9 @@ static bool build_all(const char *path)
     struct scene scene;
     struct packed_scene packed, reference;
     assert_int_equal(scene_read(path, &scene), STATUS_DONE);
-    scene_warn(&scene);
     const struct picture_settings settings = test_settings(&scene);
     packed = test_pack(&scene, settings);
+    scene_warn(&scene, &packed);
     assert_int_equal(reference_scene(&packed, 2, &reference), STATUS_DONE);
     const uint64_t record_count = sphere_record_count(&packed), word_count = sphere_word_count(&packed);
     uint32_t(*records)[4] = calloc(record_count, sizeof *records);

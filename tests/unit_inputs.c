@@ -17,10 +17,7 @@ static struct inputs inputs;
 
 static void write_file(const char *path)
 {
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs("text", file);
-    assert_int_equal(fclose(file), 0);
+    test_write_file(path, "text", 4);
 }
 
 /* Whether the files are taken within this time. */

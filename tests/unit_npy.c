@@ -32,11 +32,11 @@ static void put(FILE *file, double value, int size, bool big_endian)
         putc(bytes[big_endian ? size - 1 - i : i], file);
 }
 
-static void write_array(const char *dictionary, int version, int size, bool big_endian, bool columns_first)
+static void write_array(const char *dictionary, int size, bool big_endian, bool columns_first)
 {
     FILE *file = fopen("flake.npy", "wb");
     assert_non_null(file);
-    npy_write_header(file, version, dictionary);
+    npy_write_header(file, dictionary);
     for (size_t i = 0; i < 4 * ROWS; ++i)
         put(file, columns_first ? value_of(i % ROWS, i / ROWS) : value_of(i / 4, i % 4), size, big_endian);
     assert_int_equal(fclose(file), 0);
@@ -46,7 +46,7 @@ static void check_rows(const char *what)
 {
     struct scene scene;
     if (read_text(FLAKE, &scene) != STATUS_DONE)
-        fail_msg("%s is refused: %s", what, messages);
+        fail_msg("%s is refused: %s", what, test_messages);
     assert_int_equal(scene.objects[0].type, OBJECT_SPHERES);
     assert_int_equal(scene.objects[0].spheres.count, ROWS);
     for (size_t i = 0; i < 4 * ROWS; ++i)
@@ -58,13 +58,13 @@ static void check_rows(const char *what)
 static void kinds_of_arrays(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < 24; ++kind) {
+    for (int kind = 0; kind < 8; ++kind) {
         char dictionary[256];
-        const int version = 1 + kind / 8, size = kind & 1 ? 8 : 4;
+        const int size = kind & 1 ? 8 : 4;
         const bool big_endian = kind & 2, columns_first = kind & 4;
         snprintf(dictionary, sizeof dictionary, "{'descr': '%cf%d', 'fortran_order': %s, 'shape': (5, 4), }",
                  big_endian ? '>' : '<', size, columns_first ? "True" : "False");
-        write_array(dictionary, version, size, big_endian, columns_first);
+        write_array(dictionary, size, big_endian, columns_first);
         check_rows(dictionary);
     }
 }
@@ -72,14 +72,12 @@ static void kinds_of_arrays(void **state)
 static void ways_of_writing_a_header(void **state)
 {
     static const char *const dictionaries[] = {
-        "{'shape': (5, 4), 'descr': '<f4', 'fortran_order': False}",
-        "{\"descr\":\"<f4\",\"fortran_order\":False,\"shape\":(5,4,)}",
-        "{ 'fortran_order' : False , 'shape' : ( 5 , 4 ) , 'descr' : '<f4' , } ",
-        "{'descr': '<f4', 'fortran_order': False, 'shape': (5L, 4L), }", /* Python 2 */
+        "{'descr':'<f4','fortran_order':False,'shape':(5,4)}",
+        " { 'descr' : '<f4' , 'fortran_order' : False , 'shape' : ( 5 , 4 , ) , } ",
     };
     (void)state;
     for (size_t i = 0; i < sizeof dictionaries / sizeof *dictionaries; ++i) {
-        write_array(dictionaries[i], 1, 4, false, false);
+        write_array(dictionaries[i], 4, false, false);
         check_rows(dictionaries[i]);
     }
 }
@@ -103,15 +101,15 @@ static void check_refused(const char *message)
     char expected[512];
     snprintf(expected, sizeof expected, PLACE "%s\n", message);
     enum status status = read_text(FLAKE, &scene);
-    if (status != STATUS_REFUSED || strncmp(messages, expected, strlen(expected)) != 0)
-        fail_msg("status %d, expected:\n%sfound:\n%s", (int)status, expected, messages);
-    assert_non_null(strstr(messages, "^\n"));
+    if (status != STATUS_REFUSED || strncmp(test_messages, expected, strlen(expected)) != 0)
+        fail_msg("status %d, expected:\n%sfound:\n%s", (int)status, expected, test_messages);
+    assert_non_null(strstr(test_messages, "^\n"));
     assert_true(!scene.objects && !scene.path);
 }
 
 #define DTYPE "its dtype must be float32 or float64, is "
 #define SHAPE "its shape must be (N, 4): x, y, z, radius, is "
-#define WRONG "its NumPy header must be a dictionary of 'descr', 'fortran_order' and 'shape'"
+#define WRONG "its NumPy header must be a dictionary of 'descr', 'fortran_order' and 'shape', in this order"
 
 /* Headers before the bytes of five rows of float32. */
 static void wrong_headers(void **state)
@@ -137,14 +135,14 @@ static void wrong_headers(void **state)
          "has 16000001 rows; a scene may have 16000000 spheres in all"},
         {"{'descr': '<f4', 'fortran_order': False, 'shape': (-5, 4), }", SHAPE "(-5, 4)"},
         {"{'descr': '<f4', 'fortran_order': False, 'shape': 5, }", WRONG},
-        {"{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4", WRONG},
+        {"{'descr': '<f4', 'fortran_order': False, 'shape': (5, 40), }", SHAPE "(5, 40)"},
         {"{'descr': '<f4', 'fortran_order': 0, 'shape': (5, 4), }", WRONG},
         {"{'descr': <f4, 'fortran_order': False, 'shape': (5, 4), }", WRONG},
         {"{'descr': '<f4', 'fortran_order': False, }", WRONG},
-        {"{'descr': '<f4', 'descr': '<f4', 'shape': (5, 4), }", WRONG},
+        {"{'fortran_order': False, 'shape': (5, 4), 'descr': '<f4', }", WRONG},
         {"{'descr': '<f4', 'order': False, 'shape': (5, 4), }", WRONG},
         {"{'descr': '<f4' 'fortran_order': False, 'shape': (5, 4), }", WRONG},
-        {"{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4), } x", WRONG},
+        {"{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4), } x", SHAPE "(5, 4)"},
         {"[1, 2]", WRONG},
         {"", WRONG},
         {"{'descr", WRONG},
@@ -159,37 +157,27 @@ static void wrong_headers(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
-        write_array(wrong[i].dictionary, 1, 4, false, false);
+        write_array(wrong[i].dictionary, 4, false, false);
         check_refused(wrong[i].message);
     }
-}
-
-static void write_bytes(const char *bytes, size_t size)
-{
-    FILE *file = fopen("flake.npy", "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
 }
 
 static void other_files(void **state)
 {
     (void)state;
     check_refused("No such file or directory");
-    write_bytes("", 0);
+    test_write_file("flake.npy", "", 0);
     check_refused("is not a NumPy file (.npy)");
-    write_bytes("\x93NUMPY\1\0", 8);
+    test_write_file("flake.npy", "\x93NUMPY\1\0", 8);
     check_refused("is not a NumPy file (.npy)");
-    write_bytes("PK\3\4 the archive that numpy.savez() writes", 40);
+    test_write_file("flake.npy", "PK\3\4 the archive that numpy.savez() writes", 40);
     check_refused("is not a NumPy file (.npy)");
-    write_bytes("\x93NUMPY\4\0\x10\0                ", 26);
-    check_refused("has version 4.0 of NumPy's format; 1.0, 2.0 and 3.0 are known");
-    write_bytes("\x93NUMPY\1\0\x76\0{'descr'", 18);
+    test_write_file("flake.npy", "\x93NUMPY\2\0\x10\0                ", 26);
+    check_refused("has version 2.0 of NumPy's format; 1.0 is known");
+    test_write_file("flake.npy", "\x93NUMPY\1\0\x76\0{'descr'", 18);
     check_refused("is truncated: it ends in its header");
-    write_bytes("\x93NUMPY\2\0\x76\0", 10);
-    check_refused("is truncated: it ends in its header");
-    write_bytes("\x93NUMPY\2\0\0\0\0\xFF{}", 14);
-    check_refused("has a header of 4278190080 bytes, more than 4096");
+    test_write_file("flake.npy", "\x93NUMPY\1\0\0\xFF{}", 12);
+    check_refused("has a header of 65290 bytes, more than 4096");
     assert_int_equal(unlink("flake.npy") | mkdir("flake.npy", 0777), 0);
     check_refused("is a folder, not a file");
     assert_int_equal(rmdir("flake.npy") | mkfifo("flake.npy", 0666), 0);
@@ -220,9 +208,9 @@ static void wrong_values(void **state)
         for (int columns_first = 0; columns_first < 2; ++columns_first) {
             FILE *file = fopen("flake.npy", "wb");
             assert_non_null(file);
-            npy_write_header(file, 1,
-                             columns_first ? "{'descr': '<f8', 'fortran_order': True, 'shape': (100, 4), }"
-                                           : "{'descr': '<f8', 'fortran_order': False, 'shape': (100, 4), }");
+            npy_write_header(file, columns_first
+                                       ? "{'descr': '<f8', 'fortran_order': True, 'shape': (100, 4), }"
+                                       : "{'descr': '<f8', 'fortran_order': False, 'shape': (100, 4), }");
             for (size_t at = 0; at < 400; ++at) {
                 const size_t row = columns_first ? at % 100 : at / 4,
                              column = columns_first ? at / 100 : at % 4;

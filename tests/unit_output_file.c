@@ -1,23 +1,12 @@
 /* Output files appear whole or not at all, whatever goes wrong. */
 #include "cmocka_test.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "base/output_file.h"
-#include "image/image.h"
 #include "test_folder.h"
-
-static void put_file(const char *name, const char *text)
-{
-    FILE *stream = fopen(name, "wb");
-    assert_non_null(stream);
-    assert_int_equal(fwrite(text, 1, strlen(text), stream), strlen(text));
-    assert_int_equal(fclose(stream), 0);
-}
 
 static void assert_file(const char *name, const char *text)
 {
@@ -57,11 +46,10 @@ static void assert_refused(const char *path, const char *reason)
 static void test_commit_replaces(void **state)
 {
     (void)state;
-    put_file("target", "old");
+    test_write_file("target", "old", 3);
     struct output_file file;
     assert_int_equal(output_file_open("target", &file), STATUS_DONE);
-    assert_true(output_file_write(&file, "new ", 4));
-    fprintf(file.stream, "%s", "text");
+    fputs("new text", file.stream);
     fflush(file.stream);
     assert_file("target", "old");
     assert_int_equal(output_file_commit(&file), STATUS_DONE);
@@ -84,10 +72,10 @@ static void test_write_at(void **state)
 static void test_abandon_and_check_leave_nothing(void **state)
 {
     (void)state;
-    put_file("target", "old");
+    test_write_file("target", "old", 3);
     struct output_file file;
     assert_int_equal(output_file_open("target", &file), STATUS_DONE);
-    output_file_write(&file, "new", 3);
+    fputs("new", file.stream);
     output_file_abandon(&file);
     output_file_abandon(&file);
     assert_int_equal(output_file_claim("target"), STATUS_DONE);
@@ -101,7 +89,7 @@ static void commit_text(const char *path, const char *text)
 {
     struct output_file file;
     assert_int_equal(output_file_open(path, &file), STATUS_DONE);
-    output_file_write(&file, text, strlen(text));
+    fputs(text, file.stream);
     assert_int_equal(output_file_commit(&file), STATUS_DONE);
 }
 
@@ -119,7 +107,7 @@ static void assert_claimed(const char *path)
 static void test_claims(void **state)
 {
     (void)state;
-    put_file("target", "old");
+    test_write_file("target", "old", 3);
     assert_int_equal(mkdir("folder", 0777), 0);
     assert_int_equal(symlink("../folder", "folder/itself"), 0);
     assert_int_equal(symlink("target", "link"), 0);
@@ -148,7 +136,7 @@ static void test_permissions(void **state)
     (void)state;
     mode_t before = umask(027);
     commit_text("fresh", "x");
-    put_file("private", "old");
+    test_write_file("private", "old", 3);
     chmod("private", 0604);
     commit_text("private", "new");
     umask(before);
@@ -160,7 +148,7 @@ static void test_permissions(void **state)
 static void test_symbolic_link_is_followed(void **state)
 {
     (void)state;
-    put_file("target", "old");
+    test_write_file("target", "old", 3);
     assert_int_equal(symlink("target", "link"), 0);
     commit_text("link", "new");
     assert_true(S_ISLNK(mode_of("link")));
@@ -184,7 +172,7 @@ static void test_refusals(void **state)
     (void)state;
     assert_int_equal(mkdir("folder", 0777), 0);
     assert_int_equal(mkfifo("fifo", 0666), 0);
-    put_file("read-only", "old");
+    test_write_file("read-only", "old", 3);
     chmod("read-only", 0444);
     assert_refused("folder", "Is a directory");
     assert_refused("folder/", "Is a directory");
@@ -203,49 +191,6 @@ static void test_refusals(void **state)
     assert_int_equal(test_folder_files(0), 2);
 }
 
-/* A disk that is full for files above limit bytes. */
-static void limit_file_size(rlim_t limit)
-{
-    struct rlimit size;
-    assert_int_equal(getrlimit(RLIMIT_FSIZE, &size), 0);
-    size.rlim_cur = limit;
-    assert_int_equal(setrlimit(RLIMIT_FSIZE, &size), 0);
-}
-
-static void assert_full_disk(const struct image *image, const char *name, rlim_t limit)
-{
-    const struct image_metadata metadata = {.scene = "s", .device = "d", .precision = "float"};
-    char line[256], start[64];
-    put_file(name, "old");
-    test_messages_begin();
-    limit_file_size(limit);
-    enum status status = image_write(image, name, &metadata);
-    limit_file_size(RLIM_INFINITY);
-    int lines = test_messages_end(line);
-    snprintf(start, sizeof start, "vkwhitted: error: %s: cannot write: ", name);
-    if (status != STATUS_UNABLE || lines != 1 || strncmp(line, start, strlen(start)) != 0)
-        fail_msg("%s at %lu bytes: status %d, %d lines: %s", name, (unsigned long)limit, status, lines, line);
-    assert_file(name, "old");
-    assert_int_equal(test_folder_files(1), 1);
-}
-
-static void test_full_disk(void **state)
-{
-    (void)state;
-    signal(SIGXFSZ, SIG_IGN);
-    struct image image;
-    assert_int_equal(image_create(500, 300, &image), STATUS_DONE);
-    uint32_t random = 1;
-    for (size_t i = 0; i < 500 * 300 * 3; i++)
-        image.rgb[i] = (float)((random = random * 1664525 + 1013904223) >> 8) * 0x1p-24f;
-    static const char *const names[] = {"a.png", "a.exr", "a.pfm"};
-    static const rlim_t limits[] = {0, 1, 100, 5000, 200000};
-    for (size_t n = 0; n < sizeof names / sizeof names[0]; n++)
-        for (size_t l = 0; l < sizeof limits / sizeof limits[0]; l++)
-            assert_full_disk(&image, names[n], limits[l]);
-    image_destroy(&image);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -257,7 +202,6 @@ int main(void)
         TEST_IN_FOLDER(test_symbolic_link_is_followed),
         TEST_IN_FOLDER(test_longest_name),
         TEST_IN_FOLDER(test_refusals),
-        TEST_IN_FOLDER(test_full_disk),
     };
     return cmocka_run_group_tests_name("output_file", tests, NULL, NULL);
 }

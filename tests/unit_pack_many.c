@@ -13,14 +13,7 @@
 #include "test_folder.h"
 #include "test_render.h"
 
-#define HEAD                                                                                                 \
-    "camera: { position: [0, 2, -6], look_at: [0, 2, 0] }\n"                                                 \
-    "image: { width: 60, height: 40 }\n"                                                                     \
-    "materials:\n"                                                                                           \
-    "  - { name: Matte, type: matte, color: [0.5, 0.5, 0.5], roughness: 0.6 }\n"                             \
-    "  - { name: Mirror, type: mirror }\n"                                                                   \
-    "  - { name: Glass, type: transparent, ior: 1.5 }\n"                                                     \
-    "objects:\n"
+#define HEAD TEST_SCENE_HEAD "objects:\n"
 
 enum { MOST_ROWS = 1000 };
 

@@ -22,7 +22,7 @@ static void assert_vector(const double v[3], double x, double y, double z)
 static size_t count_errors(void)
 {
     size_t count = 0;
-    for (const char *at = messages; (at = strstr(at, ": error: ")); at++)
+    for (const char *at = test_messages; (at = strstr(at, ": error: ")); at++)
         count++;
     return count;
 }
@@ -53,12 +53,13 @@ static void test_bad_scenes(void **state)
         struct scene scene;
         expected_report(bad_scenes[i].text, bad_scenes[i].message, expected, sizeof(expected));
         enum status status = read_text(bad_scenes[i].text, &scene);
-        if (status == STATUS_REFUSED && strcmp(messages, expected) == 0) {
+        if (status == STATUS_REFUSED && strcmp(test_messages, expected) == 0) {
             assert_empty(&scene);
             continue;
         }
         failed++;
-        print_error("bad scene %zu, status %d, expected:\n%sfound:\n%s", i, (int)status, expected, messages);
+        print_error("bad scene %zu, status %d, expected:\n%sfound:\n%s", i, (int)status, expected,
+                    test_messages);
         scene_destroy(&scene);
     }
     assert_int_equal(failed, 0);
@@ -207,12 +208,12 @@ static void test_byte_order_mark_line_ends_and_aliases(void **state)
     scene_destroy(&scene);
 
     assert_int_equal(read_text("\xEF\xBB\xBFwrong: 1\r\n", &scene), STATUS_REFUSED);
-    assert_non_null(strstr(messages, "bad.yaml:1:1: error: unknown key"));
-    assert_non_null(strstr(messages, "\nwrong: 1\n^\n"));
+    assert_non_null(strstr(test_messages, "bad.yaml:1:1: error: unknown key"));
+    assert_non_null(strstr(test_messages, "\nwrong: 1\n^\n"));
 
     read_text(HEAD "h\xC3\xBC: { x: 1 }\r\rmax_bounces:\t-1\r", &scene);
-    assert_non_null(strstr(messages, "bad.yaml:5:14: error: max_bounces"));
-    assert_non_null(strstr(messages, "\nmax_bounces:\t-1\n            \t^\n"));
+    assert_non_null(strstr(test_messages, "bad.yaml:5:14: error: max_bounces"));
+    assert_non_null(strstr(test_messages, "\nmax_bounces:\t-1\n            \t^\n"));
 }
 
 static void test_long_names(void **state)
@@ -230,8 +231,8 @@ static void test_long_names(void **state)
             scene_destroy(&scene);
         } else {
             assert_int_equal(read_text(text, &scene), STATUS_REFUSED);
-            assert_non_null(strstr(messages, "bad.yaml:3:35: error: mirror material \"nnn"));
-            assert_non_null(strstr(messages, "nnn...\": name must be shorter than 512 bytes, is \"nnn"));
+            assert_non_null(strstr(test_messages, "bad.yaml:3:35: error: mirror material \"nnn"));
+            assert_non_null(strstr(test_messages, "nnn...\": name must be shorter than 512 bytes, is \"nnn"));
         }
     }
 }
@@ -264,13 +265,13 @@ static void test_every_error_in_file_order(void **state)
                   &scene),
         STATUS_REFUSED);
     static const char *const places[] = {"1:1", "2:40", "2:51", "2:66", "4:30", "5:17", "5:28"};
-    const char *at = messages;
+    const char *at = test_messages;
     for (size_t i = 0; i < sizeof(places) / sizeof(places[0]); i++) {
         char head[64];
         snprintf(head, sizeof(head), "bad.yaml:%s: error: ", places[i]);
         at = strstr(at, head);
         if (!at)
-            fail_msg("no error at %s, or out of order, in:\n%s", places[i], messages);
+            fail_msg("no error at %s, or out of order, in:\n%s", places[i], test_messages);
     }
     assert_int_equal(count_errors(), 7);
 }
@@ -293,8 +294,8 @@ static void test_hostile_texts(void **state)
     assert_non_null(text);
     memset(text, '[', size);
     assert_int_equal(read_bytes(text, size, &scene), STATUS_REFUSED);
-    assert_non_null(strstr(messages, "bad.yaml:1:300001: error: more than 300000 values; "));
-    assert_true(strlen(messages) < 400);
+    assert_non_null(strstr(test_messages, "bad.yaml:1:300001: error: more than 300000 values; "));
+    assert_true(strlen(test_messages) < 400);
 
     memset(text, ' ', size);
     memcpy(text, HEAD "objects: [", strlen(HEAD "objects: ["));
@@ -303,7 +304,7 @@ static void test_hostile_texts(void **state)
     text[size - 1] = ']';
     assert_int_equal(read_bytes(text, size, &scene), STATUS_REFUSED);
     assert_int_equal(count_errors(), 101);
-    assert_non_null(strstr(messages, " more errors\n"));
+    assert_non_null(strstr(test_messages, " more errors\n"));
 
     for (size_t i = 200; i + 1 < size; i += 2)
         memcpy(text + i, ":\n", 2);
@@ -317,14 +318,14 @@ static void test_hostile_texts(void **state)
         memcpy(text + i, "&a ,", 4);
     memcpy(text, HEAD "a: [", strlen(HEAD "a: ["));
     assert_int_equal(read_bytes(text, size, &scene), STATUS_REFUSED);
-    assert_non_null(strstr(messages, " error: more than 100 anchors\n"));
+    assert_non_null(strstr(test_messages, " error: more than 100 anchors\n"));
     assert_int_equal(count_errors(), 1);
     free(text);
 
     static const char with_nul[] = HEAD "max_bounces: 5\0wrong: 1\n";
     assert_int_equal(read_bytes(with_nul, sizeof(with_nul) - 1, &scene), STATUS_REFUSED);
     assert_non_null(
-        strstr(messages, "bad.yaml:3:15: error: must be printable UTF-8 text, has the byte 0x00"));
+        strstr(test_messages, "bad.yaml:3:15: error: must be printable UTF-8 text, has the byte 0x00"));
     assert_empty(&scene);
 }
 
@@ -333,13 +334,13 @@ static void test_files_that_cannot_be_scenes(void **state)
     (void)state;
     struct scene scene;
     assert_int_equal(read_file(SOURCE_DIR "/scenes", &scene), STATUS_REFUSED);
-    assert_string_equal(messages, SOURCE_DIR "/scenes: error: is a folder, not a file\n");
+    assert_string_equal(test_messages, SOURCE_DIR "/scenes: error: is a folder, not a file\n");
     assert_int_equal(read_file("/no/such.yaml", &scene), STATUS_REFUSED);
-    assert_string_equal(messages, "/no/such.yaml: error: No such file or directory\n");
+    assert_string_equal(test_messages, "/no/such.yaml: error: No such file or directory\n");
     assert_int_equal(read_file("/dev/zero", &scene), STATUS_REFUSED);
-    assert_string_equal(messages, "/dev/zero: error: is larger than 16 MiB, not a scene file\n");
+    assert_string_equal(test_messages, "/dev/zero: error: is larger than 16 MiB, not a scene file\n");
     assert_int_equal(read_file("/dev/null", &scene), STATUS_REFUSED);
-    assert_non_null(strstr(messages, "/dev/null:1:1: error: the file is empty"));
+    assert_non_null(strstr(test_messages, "/dev/null:1:1: error: the file is empty"));
     assert_empty(&scene);
 }
 
@@ -363,7 +364,7 @@ static void test_figures(void **state)
         struct scene scene;
         snprintf(path, sizeof(path), "%s/scenes/%s.yaml", SOURCE_DIR, figures[i].name);
         if (read_file(path, &scene) != STATUS_DONE)
-            fail_msg("%s", messages);
+            fail_msg("%s", test_messages);
         assert_string_equal(scene.path, path);
         assert_int_equal(scene.object_count, 7);
         assert_int_equal(scene.light_count, 1);

@@ -14,14 +14,6 @@
 
 enum { SIZE = 100000 };
 
-static void put_file(const char *name, const char *bytes, size_t size)
-{
-    FILE *stream = fopen(name, "wb");
-    assert_non_null(stream);
-    assert_int_equal(fwrite(bytes, 1, size, stream), size);
-    assert_int_equal(fclose(stream), 0);
-}
-
 static char *some_bytes(void)
 {
     char *bytes = malloc(SIZE);
@@ -38,7 +30,7 @@ static void test_sizes(void **state)
     char *bytes = some_bytes();
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i) {
         size_t length = 77;
-        put_file("a", bytes, sizes[i]);
+        test_write_file("a", bytes, sizes[i]);
         char *text = text_file_read("a", i % 2 == 0, sizes[i], &length);
         assert_non_null(text);
         assert_int_equal(length, sizes[i]);
@@ -118,7 +110,7 @@ static void test_pipe(void **state)
 static void test_outputs_are_not_read(void **state)
 {
     (void)state;
-    put_file("a", "x", 1);
+    test_write_file("a", "x", 1);
     assert_int_equal(symlink("a", "b"), 0);
     assert_int_equal(link("a", "c"), 0);
     assert_int_equal(output_file_claim("b"), STATUS_DONE);

@@ -1,31 +1,31 @@
 #include "base/escape.h"
 
 #include <errno.h>
-#include <stdint.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/write.h"
 
-/* Bytes of a character with this first one; 0: there is none. */
-static size_t character_size(char first)
-{
-    const unsigned char lead = (unsigned char)first;
-    return lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
-}
-
-/* The code point of a character of so many bytes; false: it is not UTF-8. */
-static bool decode(const char *text, size_t size, uint32_t *code)
+size_t utf8_decode(const char *text, size_t length, uint32_t *code)
 {
     static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
     const unsigned char lead = (unsigned char)text[0];
+    const size_t size = lead < 0x80   ? 1
+                        : lead < 0xC2 ? 0
+                        : lead < 0xE0 ? 2
+                        : lead < 0xF0 ? 3
+                        : lead < 0xF5 ? 4
+                                      : 0;
+    if (size == 0 || size > length)
+        return 0;
     *code = size == 1 ? lead : lead & (0xFFU >> (size + 1));
     for (size_t i = 1; i < size; ++i) {
         if (((unsigned char)text[i] & 0xC0) != 0x80)
-            return false;
+            return 0;
         *code = *code << 6 | ((unsigned char)text[i] & 0x3FU);
     }
-    return *code >= least[size] && *code <= 0x10FFFF && (*code < 0xD800 || *code > 0xDFFF);
+    const bool surrogate = *code >= 0xD800 && *code <= 0xDFFF;
+    return *code >= least[size] && *code <= 0x10FFFF && !surrogate ? size : 0;
 }
 
 /* C0, DEL and C1; the marks of Unicode's bidirectional algorithm (UAX #9); separators of lines; what is never
@@ -39,9 +39,9 @@ static bool is_control(uint32_t code)
 
 size_t escape_character(const char *text, size_t length, char shown[ESCAPED_SIZE])
 {
-    const size_t size = character_size(text[0]);
     uint32_t code;
-    if (size == 0 || size > length || !decode(text, size, &code)) {
+    const size_t size = utf8_decode(text, length, &code);
+    if (size == 0) {
         snprintf(shown, ESCAPED_SIZE, "\\x%02x", (unsigned char)text[0]);
         return 1;
     }

@@ -3,11 +3,16 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 
 /* Text from elsewhere (names of files and objects, lines of a scene file, what a driver or compiler says) may
  * hold control characters, by which a terminal does things, and marks that change the direction of what
  * follows. They are shown as \x1b or \u202e, and so is every byte that is not UTF-8. */
+
+/* How many of the `length` > 0 bytes at text the character there has, and its code point; 0: it is not UTF-8.
+ */
+size_t utf8_decode(const char *text, size_t length, uint32_t *code);
 
 enum { ESCAPED_SIZE = 12 }; /* bytes of a shown character, the terminator included */
 

@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/output_file.h"
 
@@ -22,8 +21,7 @@ enum status json_write(json_t *value, const char *path)
     struct output_file file;
     enum status status = output_file_open(path, &file);
     if (status == STATUS_DONE) {
-        output_file_write(&file, text, strlen(text));
-        output_file_write(&file, "\n", 1);
+        fprintf(file.stream, "%s\n", text);
         status = output_file_commit(&file);
     }
     free(text);

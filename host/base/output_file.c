@@ -117,11 +117,6 @@ enum status output_file_open(const char *path, struct output_file *file)
     return STATUS_DONE;
 }
 
-bool output_file_write(struct output_file *file, const void *bytes, size_t size)
-{
-    return file->error == 0 && fwrite(bytes, 1, size, file->stream) == size;
-}
-
 bool output_file_write_at(struct output_file *file, const void *bytes, size_t size, uint64_t offset)
 {
     if (file->error == 0 && lseek(file->descriptor, (off_t)offset, SEEK_SET) < 0)

@@ -18,7 +18,7 @@
  * A process that is interrupted (interrupt.h) leaves nothing behind. */
 struct output_file {
     const char *path; /* as given, for messages; the caller keeps it alive */
-    FILE *stream;     /* write here, or with the functions below; NULL when not open */
+    FILE *stream;     /* write here: commit reports what fails; NULL when not open */
     char *target, *temporary;
     int descriptor;
     int error; /* errno of the first write that failed, also of one to the stream */
@@ -28,12 +28,8 @@ struct output_file {
  * stays where it is while the file is open. */
 enum status output_file_open(const char *path, struct output_file *file);
 
-/* Appends size bytes. After a failure, which output_file_commit() reports, further writes do nothing
- * and return false: a writer may stop early or not care. */
-bool output_file_write(struct output_file *file, const void *bytes, size_t size);
-
-/* Writes size bytes at an offset from the start of the file; failures as above. A file is written with
- * this alone or without it. */
+/* Writes size bytes at an offset from the start of the file; false on failure, which output_file_commit()
+ * reports. A file is written with this alone or without it. */
 bool output_file_write_at(struct output_file *file, const void *bytes, size_t size, uint64_t offset);
 
 /* Puts the file in place and closes it. On STATUS_UNABLE (reported) the target is as it was before. */

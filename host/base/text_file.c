@@ -10,7 +10,7 @@
 
 #include "base/output_file.h"
 
-int input_file_open(const char *path, bool regular_only, off_t *size)
+int input_file_open(const char *path, bool regular_only)
 {
     struct stat about;
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
@@ -21,7 +21,6 @@ int input_file_open(const char *path, bool regular_only, off_t *size)
                 : regular_only && !S_ISREG(about.st_mode) ? EINVAL
                 : output_file_claimed(&about)             ? EBUSY
                                                           : 0;
-    *size = about.st_size;
     if (error == 0)
         return file;
     close(file);
@@ -71,8 +70,7 @@ static char *read_open_file(int file, size_t most, size_t *length)
 
 char *text_file_read(const char *path, bool regular_only, size_t most, size_t *length)
 {
-    off_t size;
-    int file = input_file_open(path, regular_only, &size);
+    int file = input_file_open(path, regular_only);
     if (file < 0)
         return NULL;
     char *text = read_open_file(file, most, length);

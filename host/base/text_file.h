@@ -12,7 +12,7 @@
 /* Opens a file for reading, without waiting for a pipe's writer. -1 and errno on failure: EISDIR for a
  * folder, EBUSY for a file that is to be written (output_file_claim()), and with regular_only EINVAL for a
  * pipe or device. */
-int input_file_open(const char *path, bool regular_only, off_t *size);
+int input_file_open(const char *path, bool regular_only);
 
 /* Reads as much as there is, up to size bytes; less at the end of the file, -1 and errno on failure. Waits
  * for what comes through a pipe. */

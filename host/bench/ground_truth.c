@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/statistics.h"
-#include "image/srgb.h"
+#include "image/transfer.h"
 #include "tracer/reference_scene.h"
 
 enum { PILOT_PIXELS = 300, ALL_BOUNCES = 64, STRIDE_OF_BOUNCES = 4, CONVERGED_SAMPLES = 65536 };
@@ -163,12 +163,12 @@ enum status ground_truth_create(const struct scene *scene, const struct packed_s
     return status;
 }
 
-static bool is_off_8bit(const struct srgb_encoder *encoder, const float *value, const double *exact)
+static bool is_off_8bit(const struct transfer_encoder *encoder, const float *value, const double *exact)
 {
     const float exact_float[3] = {(float)exact[0], (float)exact[1], (float)exact[2]};
     uint8_t code[3], exact_code[3];
-    srgb_encode(encoder, value, 3, code);
-    srgb_encode(encoder, exact_float, 3, exact_code);
+    transfer_encode(encoder, value, 3, code);
+    transfer_encode(encoder, exact_float, 3, exact_code);
     for (int c = 0; c < 3; ++c)
         if (abs((int)code[c] - (int)exact_code[c]) > 1)
             return true;
@@ -198,14 +198,14 @@ enum status bench_error_measure(const struct image *image, const struct ground_t
     size_t count = pixel_grid_count(&truth->pixels.grid);
     double *absolute = calloc(2 * count, sizeof *absolute);
     double sum = 0, sum_of_squares = 0; /* of the pixels' mean squares */
-    struct srgb_encoder encoder;
+    struct transfer_encoder encoder;
     *error = (struct bench_error){0};
     if (!absolute) {
         log_error("no memory for the errors of %zu pixels", count);
         return STATUS_UNABLE;
     }
     double *relative = absolute + count;
-    srgb_encoder_init(&encoder);
+    transfer_encoder_init(TRANSFER_SRGB, &encoder);
     for (size_t i = 0; i < count; ++i) {
         size_t place = pixel_grid_place(&truth->pixels.grid, i, image->width);
         const double *exact = &truth->pixels.rgb[3 * i];

@@ -21,7 +21,7 @@ enum status report_write(const json_t *document, const char *path)
     enum status status = output_file_open(path, &file);
     if (status != STATUS_DONE)
         return status;
-    output_file_write(&file, template, (size_t)(place - template));
+    fwrite(template, 1, (size_t)(place - template), file.stream);
     if (json_dump_callback(document, write_escaped, file.stream,
                            JSON_ENSURE_ASCII | JSON_REAL_PRECISION(9)) != 0) {
         output_file_abandon(&file);
@@ -29,6 +29,6 @@ enum status report_write(const json_t *document, const char *path)
         return STATUS_UNABLE;
     }
     place += strlen(marker);
-    output_file_write(&file, place, (size_t)(end - place));
+    fwrite(place, 1, (size_t)(end - place), file.stream);
     return output_file_commit(&file);
 }

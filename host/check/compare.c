@@ -42,19 +42,10 @@ static double value_at(const struct image *image, size_t index)
     return image->rgb64 ? image->rgb64[index] : (double)image->rgb[index];
 }
 
-enum status image_compare(const struct image *a, const struct image *b, const struct tolerance *tolerance,
-                          struct comparison *comparison)
+struct comparison image_compare(const struct image *a, const struct image *b,
+                                const struct tolerance *tolerance)
 {
-    *comparison = (struct comparison){0};
-    if (a->width != b->width || a->height != b->height) {
-        log_error("cannot compare a picture of %ux%u pixels with one of %ux%u", a->width, a->height, b->width,
-                  b->height);
-        return STATUS_REFUSED;
-    }
-    if (!a->rgb64 != !b->rgb64) {
-        log_error("cannot compare a picture in double precision with one in float");
-        return STATUS_REFUSED;
-    }
+    struct comparison comparison = {.width = a->width, .height = a->height};
     struct worst disagreeing = {.error = -1}, unequal = {.error = -1};
     const size_t pixels = (size_t)a->width * a->height;
     for (size_t pixel = 0; pixel < pixels; ++pixel) {
@@ -71,20 +62,18 @@ enum status image_compare(const struct image *a, const struct image *b, const st
             pixel_agrees = false;
             note(&disagreeing, error, i);
         }
-        comparison->bit_differing += !pixel_same;
-        if (!pixel_agrees && comparison->differing++ == 0) {
-            comparison->first_x = (unsigned)(pixel % a->width);
-            comparison->first_y = (unsigned)(pixel / a->width);
+        comparison.bit_differing += !pixel_same;
+        if (!pixel_agrees && comparison.differing++ == 0) {
+            comparison.first_x = (unsigned)(pixel % a->width);
+            comparison.first_y = (unsigned)(pixel / a->width);
         }
     }
-    const struct worst *worst = comparison->differing > 0 ? &disagreeing : &unequal;
-    comparison->width = a->width;
-    comparison->height = a->height;
-    comparison->max_error = fmax(worst->error, 0);
-    comparison->x = (unsigned)(worst->index / 3 % a->width);
-    comparison->y = (unsigned)(worst->index / 3 / a->width);
-    comparison->channel = (unsigned)(worst->index % 3);
-    return comparison->differing > 0 ? STATUS_DIFFERS : STATUS_DONE;
+    const struct worst *worst = comparison.differing > 0 ? &disagreeing : &unequal;
+    comparison.max_error = fmax(worst->error, 0);
+    comparison.x = (unsigned)(worst->index / 3 % a->width);
+    comparison.y = (unsigned)(worst->index / 3 / a->width);
+    comparison.channel = (unsigned)(worst->index % 3);
+    return comparison;
 }
 
 static const char *const channels[] = {"r", "g", "b"};

@@ -24,14 +24,11 @@ struct comparison {
     unsigned first_x, first_y; /* the first pixel that does not agree, row by row; 0 where all agree */
 };
 
-/* Compares two pictures, in double where both have it; bit for bit if tolerance is NULL: then -0 and +0 do
- * not agree, and NaNs agree only if they are the same bits. A picture has a pixel at least. STATUS_DONE if
- * all pixels agree, otherwise STATUS_DIFFERS, without a message; STATUS_REFUSED (reported, *comparison all 0)
- * where the sizes differ, or where one picture has double precision and the other has not: they are not two
- * tries at the same picture.
- */
-enum status image_compare(const struct image *a, const struct image *b, const struct tolerance *tolerance,
-                          struct comparison *comparison);
+/* Compares two pictures of the same size and precision, in double where they have it; bit for bit if
+ * tolerance is NULL: then -0 and +0 do not agree, and NaNs agree only if they are the same bits. A picture
+ * has a pixel at least. */
+struct comparison image_compare(const struct image *a, const struct image *b,
+                                const struct tolerance *tolerance);
 
 /* Prints in a line how a scene's pictures compare, of which so many pixels are allowed to differ. */
 void comparison_print(const struct comparison *comparison, const char *scene, size_t allowed);

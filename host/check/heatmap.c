@@ -5,11 +5,11 @@
 
 #include "image/formats.h"
 
-void viridis(double level, uint8_t *rgb)
+void error_color(double relative_error, uint8_t *rgb)
 {
     static const double ramp[5][3] = {
         {68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
-    level = fmin(fmax(level, 0.0), 1.0);
+    const double level = fmin(fmax(1.0 + log2(relative_error) / 24.0, 0.0), 1.0);
     int quarter = level < 1.0 ? (int)(level * 4.0) : 3;
     double fraction = level * 4.0 - quarter;
     for (int c = 0; c < 3; c++)
@@ -34,7 +34,7 @@ void heatmap_color(const float *a, const float *b, uint8_t *rgb)
         if (magnitude > 0.0)
             relative_error = fmax(relative_error, fabs((double)a[c] - (double)b[c]) / magnitude);
     }
-    viridis(relative_error > 0.0 ? 1.0 + log2(relative_error) / 24.0 : 0.0, rgb);
+    error_color(relative_error, rgb);
 }
 
 static void color_difference(const void *context, unsigned x, unsigned y, uint8_t rgb[static 3])

@@ -5,9 +5,10 @@
 
 #include "image/image.h"
 
-/* The colour of level in [0, 1], clamped: viridis (Stefan van der Walt and Nathaniel Smith, CC0) at its
- * quarters; perceived lightness grows evenly along it. */
-void viridis(double level, uint8_t *rgb);
+/* The 8-bit colour of a relative error on a logarithmic scale: dark violet is 2^-24 (half a unit in the last
+ * place of a float) or less, blue 2^-18, teal 2^-12, green 2^-6, yellow 1 or more. This is viridis (Stefan
+ * van der Walt and Nathaniel Smith, CC0) at its quarters; perceived lightness grows evenly along it. */
+void error_color(double relative_error, uint8_t *rgb);
 
 /* A picture of how right another one is. */
 struct heatmap {
@@ -20,10 +21,9 @@ struct heatmap {
 /* Writes an 8-bit PNG, whole or not at all. STATUS_UNABLE (reported) where it cannot be written. */
 enum status heatmap_write(const struct heatmap *heatmap, const char *path);
 
-/* The 8-bit colour of the difference between two pixels: the largest relative error over the channels,
- * |a - b| / max(|a|, |b|), on a logarithmic scale in the colours of viridis. Dark violet is 2^-24 (half a
- * unit in the last place of a float) or less, blue 2^-18, teal 2^-12, green 2^-6, yellow 1 or more. Black:
- * the same bits; white: not the same bits, and not finite on one side at least. */
+/* The colour of the difference between two pixels: of the largest relative error over the channels,
+ * |a - b| / max(|a|, |b|). Black: the same bits; white: not the same bits, and not finite on one side at
+ * least. */
 void heatmap_color(const float *a, const float *b, uint8_t *rgb);
 
 /* These colours for pictures of the same size; the pair is the context. */

@@ -33,11 +33,6 @@ static bool is_tight(const struct reference_explanation *exact)
     return exact->bound[0] <= tight && exact->bound[1] <= tight && exact->bound[2] <= tight;
 }
 
-static double quantile(const double *sorted, size_t count, double fraction)
-{
-    return count == 0 ? 0 : sorted[(size_t)(fraction * (double)(count - 1))];
-}
-
 enum status judge_picture(const struct image *image, const uint32_t *signatures,
                           const struct reference_explanation *explanations, struct judgement *judgement)
 {
@@ -74,9 +69,9 @@ enum status judge_picture(const struct image *image, const uint32_t *signatures,
         relative_errors[count++] = error.relative;
     }
     sort_doubles(relative_errors, count);
-    judgement->median = quantile(relative_errors, count, 0.5);
-    judgement->percentile_99 = quantile(relative_errors, count, 0.99);
-    judgement->percentile_99_99 = quantile(relative_errors, count, 0.9999);
+    judgement->median = sorted_quantile(relative_errors, count, 0.5);
+    judgement->percentile_99 = sorted_quantile(relative_errors, count, 0.99);
+    judgement->percentile_99_99 = sorted_quantile(relative_errors, count, 0.9999);
     free(relative_errors);
     return judgement->unexplained ? STATUS_DIFFERS : STATUS_DONE;
 }
@@ -133,7 +128,7 @@ static void color(const void *context, unsigned x, unsigned y, uint8_t rgb[stati
         relative = judge_pixel(picture->image->rgb + 3 * i, exact).relative;
     for (int c = 0; c < 3 && x >= width; ++c)
         relative = fmax(relative, exact->bound[c] / fmax(fabs(exact->rgb[c]), relative_floor));
-    viridis(1 + log2(relative) / 24, rgb);
+    error_color(relative, rgb);
 }
 
 struct heatmap judgement_heatmap(const struct judged_picture *picture)

@@ -134,7 +134,7 @@ static void color(const void *context, unsigned x, unsigned y, uint8_t rgb[stati
     else if (pixel.verdict == VERDICT_NEAR_DECISION)
         memcpy(rgb, blue, 3);
     else
-        viridis(1 + log2(pixel.relative) / 24, rgb);
+        error_color(pixel.relative, rgb);
 }
 
 struct heatmap verdicts_heatmap(const struct compared_picture *compared)

@@ -15,57 +15,22 @@ static enum status refuse(const struct exr_input *input)
     return STATUS_REFUSED;
 }
 
-static int64_t on_read(exr_const_context_t context, void *user_data, void *bytes, uint64_t size,
-                       uint64_t offset, exr_stream_error_func_ptr_t report_error)
-{
-    (void)context;
-    (void)report_error;
-    const struct exr_input *input = user_data;
-    const uint64_t left = offset < input->size ? input->size - offset : 0;
-    const uint64_t read = size < left ? size : left; /* the library sees that it is less than it needs */
-    if (read > 0)
-        memcpy(bytes, input->bytes + offset, read);
-    return (int64_t)read;
-}
-
-static int64_t on_size(exr_const_context_t context, void *user_data)
-{
-    (void)context;
-    return (int64_t)((const struct exr_input *)user_data)->size;
-}
-
-enum status exr_input_open(const char *path, const void *bytes, size_t size, struct exr_input *input)
+enum status exr_input_open(const char *path, struct exr_input *input)
 {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     initializer.error_handler_fn = exr_error_keep;
     initializer.max_tile_width = initializer.max_tile_height = LARGEST_TILE;
-    *input = (struct exr_input){.path = path, .bytes = bytes, .size = size};
-    if (bytes) {
-        initializer.user_data = input;
-        initializer.read_fn = on_read;
-        initializer.size_fn = on_size;
-    } else {
-        off_t file_size;
-        const int file = input_file_open(path, true, &file_size);
-        if (file < 0)
-            return input_file_refuse(path);
-        close(file);
-    }
+    *input = (struct exr_input){.path = path};
+    const int file = input_file_open(path, true);
+    if (file < 0)
+        return input_file_refuse(path);
+    close(file);
     exr_error_clear();
     return exr_succeeded(exr_start_read(&input->context, path, &initializer)) ? STATUS_DONE : refuse(input);
 }
 
-static void end_part(struct exr_input *input)
-{
-    if (input->pipeline.channels)
-        exr_decoding_destroy(input->context, &input->pipeline);
-    input->pipeline = (exr_decode_pipeline_t)EXR_DECODE_PIPELINE_INITIALIZER;
-    input->count = 0;
-}
-
 void exr_input_close(struct exr_input *input)
 {
-    end_part(input);
     if (input->context)
         exr_finish(&input->context);
     free(input->values);
@@ -95,12 +60,13 @@ bool exr_input_windows(const struct exr_input *input, int part, struct window *d
 /* Has the pipeline write the wanted channels to the values, from that column of the first row on. The others
  * are written behind them, all to the same place: the library's quick ways for 3 and 4 halves leave none out.
  */
-static bool point_to_channels(struct exr_input *input, size_t column, int rows)
+static bool point_to_channels(struct exr_input *input, exr_decode_pipeline_t *pipeline, size_t column,
+                              int rows)
 {
     float *unwanted = input->values + (size_t)rows * input->width * (size_t)input->channel_count;
     int found = 0;
-    for (int c = 0; c < input->pipeline.channel_count; ++c) {
-        exr_coding_channel_info_t *channel = &input->pipeline.channels[c];
+    for (int c = 0; c < pipeline->channel_count; ++c) {
+        exr_coding_channel_info_t *channel = &pipeline->channels[c];
         channel->decode_to_ptr = (uint8_t *)unwanted;
         channel->user_data_type = channel->data_type;
         channel->user_bytes_per_element = channel->bytes_per_element;
@@ -138,18 +104,18 @@ static bool require_rows(struct exr_input *input, int rows)
 /* Decodes a chunk to that column of the rows, for which there is room. */
 static bool decode(struct exr_input *input, const exr_chunk_info_t *chunk, size_t column, int rows)
 {
-    exr_decode_pipeline_t *pipeline = &input->pipeline;
-    const bool is_first = !pipeline->channels;
+    exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
     if (column + (size_t)chunk->width > input->width || chunk->height > rows) {
         exr_error_keep(input->context, EXR_ERR_BAD_CHUNK_LEADER, "a chunk reaches out of the picture");
         return false;
     }
-    return exr_succeeded(is_first ? exr_decoding_initialize(input->context, input->part, chunk, pipeline)
-                                  : exr_decoding_update(input->context, input->part, chunk, pipeline)) &&
-           point_to_channels(input, column, rows) &&
-           (!is_first ||
-            exr_succeeded(exr_decoding_choose_default_routines(input->context, input->part, pipeline))) &&
-           exr_succeeded(exr_decoding_run(input->context, input->part, pipeline));
+    const bool decoded =
+        exr_succeeded(exr_decoding_initialize(input->context, input->part, chunk, &pipeline)) &&
+        point_to_channels(input, &pipeline, column, rows) &&
+        exr_succeeded(exr_decoding_choose_default_routines(input->context, input->part, &pipeline)) &&
+        exr_succeeded(exr_decoding_run(input->context, input->part, &pipeline));
+    exr_decoding_destroy(input->context, &pipeline);
+    return decoded;
 }
 
 static bool decode_scanlines(struct exr_input *input, int y)
@@ -209,7 +175,7 @@ enum status exr_input_read(struct exr_input *input, int part, int y, const char 
 {
     exr_error_clear();
     if (part != input->part || channels != input->channels)
-        end_part(input);
+        input->count = 0;
     input->part = part;
     input->channels = channels;
     input->channel_count = channel_count;

@@ -11,11 +11,7 @@ struct exr_input {
     const char *path; /* the caller keeps it alive */
     exr_context_t context;
 
-    const uint8_t *bytes; /* the file's content, where that is in memory; otherwise NULL */
-    size_t size;
-
     /* The rows that were decoded last: a chunk of scan lines, or a row of tiles. */
-    exr_decode_pipeline_t pipeline;
     int part, first, count; /* rows first to first + count - 1 of that part */
     size_t width;
     const char *const *channels; /* that values holds, side by side for each pixel */
@@ -24,10 +20,9 @@ struct exr_input {
     size_t room; /* for values */
 };
 
-/* Opens the file at the path, or where bytes is not NULL a file with that content. Neither the input nor the
- * bytes may move before it is closed. STATUS_UNABLE (reported) where the file cannot be read, STATUS_REFUSED
- * (reported) where it is no EXR file. */
-enum status exr_input_open(const char *path, const void *bytes, size_t size, struct exr_input *input);
+/* Opens the file; the input stays where it is. STATUS_UNABLE (reported) where the file cannot be read,
+ * STATUS_REFUSED (reported) where it is no EXR file. */
+enum status exr_input_open(const char *path, struct exr_input *input);
 
 /* Does nothing to one that is not open. */
 void exr_input_close(struct exr_input *input);

@@ -13,7 +13,6 @@ struct exr_output {
     struct window window; /* of the picture, that the rows are */
     struct strips strips;
     exr_context_t context;
-    exr_encode_pipeline_t pipeline;
     float *values;      /* of a chunk */
     enum status status; /* of the rows */
 };
@@ -123,26 +122,25 @@ static bool read_rows(struct exr_output *output, bool truncation, unsigned first
 /* Writes the chunk of a part that begins with its row y. */
 static bool write_chunk(struct exr_output *output, int index, const struct part *part, unsigned y)
 {
-    exr_encode_pipeline_t *pipeline = &output->pipeline;
-    const bool is_first = y == 0;
+    exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_chunk_info_t chunk;
     if (!exr_succeeded(
             exr_write_scanline_chunk_info(output->context, index, (int)(part->window.y + y), &chunk)) ||
         !read_rows(output, part->truncation, part->first + y, (unsigned)chunk.height))
         return false;
-    if (!exr_succeeded(is_first ? exr_encoding_initialize(output->context, index, &chunk, pipeline)
-                                : exr_encoding_update(output->context, index, &chunk, pipeline)))
-        return false;
-    const int32_t count = pipeline->channel_count;
-    for (int32_t c = 0; c < count; c++) { /* of B, G, R */
-        exr_coding_channel_info_t *channel = &pipeline->channels[c];
+    bool written = exr_succeeded(exr_encoding_initialize(output->context, index, &chunk, &pipeline));
+    const int32_t count = pipeline.channel_count;
+    for (int32_t c = 0; c < count && written; c++) { /* of B, G, R */
+        exr_coding_channel_info_t *channel = &pipeline.channels[c];
         channel->encode_from_ptr = (const uint8_t *)(output->values + (count - 1 - c));
         channel->user_pixel_stride = count * (int32_t)sizeof(float);
         channel->user_line_stride = (int32_t)output->rows->width * channel->user_pixel_stride;
     }
-    return (!is_first ||
-            exr_succeeded(exr_encoding_choose_default_routines(output->context, index, pipeline))) &&
-           exr_succeeded(exr_encoding_run(output->context, index, pipeline));
+    written = written &&
+              exr_succeeded(exr_encoding_choose_default_routines(output->context, index, &pipeline)) &&
+              exr_succeeded(exr_encoding_run(output->context, index, &pipeline));
+    exr_encoding_destroy(output->context, &pipeline);
+    return written;
 }
 
 static bool write_part(struct exr_output *output, int index)
@@ -155,8 +153,6 @@ static bool write_part(struct exr_output *output, int index)
     written = written && output->values;
     for (unsigned y = 0; written && y < part.window.height; y += (unsigned)rows_per_chunk)
         written = write_chunk(output, index, &part, y);
-    exr_encoding_destroy(output->context, &output->pipeline);
-    output->pipeline = (exr_encode_pipeline_t)EXR_ENCODE_PIPELINE_INITIALIZER;
     return written;
 }
 

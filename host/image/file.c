@@ -21,7 +21,7 @@ static enum status write_pfm(const struct image_rows *rows, const char *path,
     for (unsigned y = rows->height; y-- > 0 && status == STATUS_DONE;) {
         status = rows->read(rows->context, y, false, &row);
         if (status == STATUS_DONE)
-            output_file_write(&file, row, (size_t)rows->width * 3 * sizeof *row);
+            fwrite(row, sizeof *row, (size_t)rows->width * 3, file.stream);
     }
     if (status == STATUS_DONE)
         return output_file_commit(&file);

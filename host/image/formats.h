@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-#include "image/image.h"
+#include "image/read.h"
 
 /* Writers behind image_write(); each reports its failures. */
 enum status image_write_png(const struct image_rows *rows, const char *path,
@@ -28,5 +28,23 @@ struct png_source {
 /* Writes the picture to a file, whole or not at all. STATUS_UNABLE (reported) where it cannot be written, or
  * what a row fails with. */
 enum status png_write(const struct png_source *source, const char *path);
+
+/* What the readers behind image_read() share. Each reports its failures, upon which the picture is the
+ * caller's to destroy. */
+struct read_input {
+    const char *path;
+    const uint8_t *bytes; /* the file's content; EXR, of which some rows are read at a time: NULL */
+    size_t size;
+    const struct image_wanted *wanted;
+};
+
+enum status image_read_pfm(const struct read_input *input, struct read_image *picture);
+enum status image_read_png(const struct read_input *input, struct read_image *picture);
+enum status image_read_exr(const struct read_input *input, struct read_image *picture);
+
+/* Gives an empty picture its room. STATUS_REFUSED where the file's size is not the wanted one, STATUS_UNABLE
+ * without memory. */
+enum status read_image_create(const struct read_input *input, unsigned long width, unsigned long height,
+                              struct read_image *picture);
 
 #endif

@@ -71,7 +71,7 @@ static enum status read_header(const char *path, struct tile_file *file)
 {
     static const char *const names[TEXTS] = {"scene", "device", "precision", "settings", "digest"};
     struct exr_input input;
-    enum status status = exr_input_open(path, NULL, 0, &input);
+    enum status status = exr_input_open(path, &input);
     const char *tile = status == STATUS_DONE ? get_text(&input, "tile") : NULL;
     file->path = path;
     if (status == STATUS_DONE && !(tile && tile_parse(tile, &file->tile) && parts_fit(&input, file))) {
@@ -178,7 +178,7 @@ static enum status read_row(void *context, unsigned y, bool truncation, const fl
     }
     if (!join->input.context || join->opened != index) {
         exr_input_close(&join->input);
-        enum status status = exr_input_open(file->path, NULL, 0, &join->input);
+        enum status status = exr_input_open(file->path, &join->input);
         if (status != STATUS_DONE)
             return status;
         join->opened = index;

@@ -7,7 +7,7 @@
 
 #include "base/output_file.h"
 #include "image/formats.h"
-#include "image/srgb.h"
+#include "image/transfer.h"
 
 struct png_output {
     struct output_file file;
@@ -114,30 +114,25 @@ enum status png_write(const struct png_source *source, const char *path)
 
 struct picture {
     const struct image_rows *rows;
-    enum transfer transfer;
-    struct srgb_encoder encoder;
+    struct transfer_encoder encoder;
 };
 
 static enum status encode_picture_row(const void *context, unsigned y, uint8_t *rgb)
 {
     const struct picture *picture = context;
-    const size_t channels = (size_t)picture->rows->width * 3;
     const float *row;
     enum status status = picture->rows->read(picture->rows->context, y, false, &row);
     if (status != STATUS_DONE)
         return status;
-    if (picture->transfer == TRANSFER_SRGB)
-        srgb_encode(&picture->encoder, row, channels, rgb);
-    else
-        linear_encode(row, channels, rgb);
+    transfer_encode(&picture->encoder, row, (size_t)picture->rows->width * 3, rgb);
     return STATUS_DONE;
 }
 
 enum status image_write_png(const struct image_rows *rows, const char *path,
                             const struct image_metadata *metadata)
 {
-    struct picture picture = {.rows = rows, .transfer = metadata->transfer};
-    srgb_encoder_init(&picture.encoder);
+    struct picture picture = {.rows = rows};
+    transfer_encoder_init(metadata->transfer, &picture.encoder);
     char max_bounces[16];
     snprintf(max_bounces, sizeof max_bounces, "%u", metadata->max_bounces);
     const struct png_text texts[] = {

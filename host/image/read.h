@@ -21,8 +21,8 @@ struct image_wanted {
 };
 
 /* Reads a picture file of the wanted size; its suffix says the format:
- * .pfm, colour or grey: as it is.
- * .exr, the first part, R, G and B or else Y of 16 or 32 bits, scanlines or tiles, compressed without loss:
+ * .pfm, colour: as it is.
+ * .exr, channels R, G and B of the first part, 16 or 32 bits, scanlines or tiles, compressed without loss:
  * 16-bit values were rounded to nearest. The data window is the display window, or the wanted part of it.
  * .png, colour or grey of 8 or 16 bits: a code value stands for all between the two beside it, for programs
  * round them up, down and to nearest; the lowest and the highest also for what was clipped. What its alpha
@@ -32,9 +32,6 @@ struct image_wanted {
  * reported: STATUS_REFUSED for a file that is not such a picture, STATUS_UNABLE where it cannot be read. */
 enum status image_read(const char *path, const struct image_wanted *wanted, struct read_image *picture);
 
-/* The same for a file's content in memory; path is for messages and the format. */
-enum status image_read_bytes(const char *path, const void *bytes, size_t size,
-                             const struct image_wanted *wanted, struct read_image *picture);
 void read_image_destroy(struct read_image *picture);
 
 #endif

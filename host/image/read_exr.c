@@ -5,14 +5,9 @@
 
 #include "image/exr_error.h"
 #include "image/exr_input.h"
-#include "image/read_formats.h"
+#include "image/formats.h"
 
-/* The channels that make a picture's colours. */
-struct colors {
-    const char *const *names;
-    int count; /* 3, or 1: grey */
-    bool is_half[3];
-};
+static const char *const rgb[] = {"R", "G", "B"};
 
 /* Says why the file is refused. */
 __attribute__((format(printf, 2, 3))) static enum status refuse(const struct exr_input *input,
@@ -35,21 +30,18 @@ static const exr_attr_chlist_entry_t *find_channel(const exr_attr_chlist_t *list
     return NULL;
 }
 
-static enum status choose_channels(const struct exr_input *input, struct colors *colors)
+static enum status check_channels(const struct exr_input *input, bool is_half[3])
 {
-    static const char *const rgb[] = {"R", "G", "B"}, *const grey[] = {"Y"};
     const exr_attr_chlist_t *list;
     if (!exr_succeeded(exr_get_channels(input->context, 0, &list)))
         return refuse(input, "%s", exr_error());
-    const bool is_grey = !find_channel(list, "R") && !find_channel(list, "BY");
-    *colors = (struct colors){.names = is_grey ? grey : rgb, .count = is_grey ? 1 : 3};
-    for (int c = 0; c < colors->count; ++c) {
-        const exr_attr_chlist_entry_t *channel = find_channel(list, colors->names[c]);
+    for (int c = 0; c < 3; ++c) {
+        const exr_attr_chlist_entry_t *channel = find_channel(list, rgb[c]);
         if (!channel)
-            return refuse(input, "expected the channels R, G and B or Y, has no %s", colors->names[c]);
+            return refuse(input, "expected the channels R, G and B, has no %s", rgb[c]);
         if (channel->pixel_type == EXR_PIXEL_UINT || channel->x_sampling != 1 || channel->y_sampling != 1)
-            return refuse(input, "channel %s: expected half or float for each pixel", channel->name.str);
-        colors->is_half[c] = channel->pixel_type == EXR_PIXEL_HALF;
+            return refuse(input, "channel %s: expected half or float for each pixel", rgb[c]);
+        is_half[c] = channel->pixel_type == EXR_PIXEL_HALF;
     }
     return STATUS_DONE;
 }
@@ -93,21 +85,17 @@ static struct value_range of_half(float value)
     return (struct value_range){value - half_step, value + half_step};
 }
 
-static enum status read_rows(struct exr_input *input, const struct colors *colors, int first_y,
+static enum status read_rows(struct exr_input *input, const bool is_half[3], int first_y,
                              struct read_image *picture)
 {
     struct value_range *range = picture->rgb;
     for (unsigned y = 0; y < picture->height; ++y) {
         const float *row;
-        const enum status status =
-            exr_input_read(input, 0, first_y + (int)y, colors->names, colors->count, &row);
+        const enum status status = exr_input_read(input, 0, first_y + (int)y, rgb, 3, &row);
         if (status != STATUS_DONE)
             return status;
-        for (size_t i = 0; i < 3 * (size_t)picture->width; ++i) {
-            const float value = colors->count == 3 ? row[i] : row[i / 3];
-            const bool is_half = colors->is_half[colors->count == 3 ? i % 3 : 0];
-            *range++ = is_half ? of_half(value) : (struct value_range){value, value};
-        }
+        for (size_t i = 0; i < 3 * (size_t)picture->width; ++i)
+            *range++ = is_half[i % 3] ? of_half(row[i]) : (struct value_range){row[i], row[i]};
     }
     return STATUS_DONE;
 }
@@ -115,7 +103,7 @@ static enum status read_rows(struct exr_input *input, const struct colors *color
 static enum status read(const struct read_input *input, struct exr_input *exr, struct read_image *picture)
 {
     exr_attr_box2i_t data;
-    struct colors colors = {0};
+    bool is_half[3];
     enum status status = check_windows(exr, &input->wanted->window, &data);
     if (status == STATUS_DONE)
         status = read_image_create(input, (unsigned long)((int64_t)data.max.x - data.min.x + 1),
@@ -123,14 +111,14 @@ static enum status read(const struct read_input *input, struct exr_input *exr, s
     if (status == STATUS_DONE)
         status = check_compression(exr);
     if (status == STATUS_DONE)
-        status = choose_channels(exr, &colors);
-    return status == STATUS_DONE ? read_rows(exr, &colors, data.min.y, picture) : status;
+        status = check_channels(exr, is_half);
+    return status == STATUS_DONE ? read_rows(exr, is_half, data.min.y, picture) : status;
 }
 
 enum status image_read_exr(const struct read_input *input, struct read_image *picture)
 {
     struct exr_input exr;
-    enum status status = exr_input_open(input->path, input->bytes, input->size, &exr);
+    enum status status = exr_input_open(input->path, &exr);
     if (status == STATUS_DONE)
         status = read(input, &exr, picture);
     exr_input_close(&exr);

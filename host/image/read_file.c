@@ -1,12 +1,15 @@
 #include "image/read.h"
 
+#include <ctype.h>
+#include <endian.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
 #include "base/text_file.h"
-#include "image/read_formats.h"
+#include "image/formats.h"
 
 static const size_t largest_file = (size_t)1 << 32;
 
@@ -35,56 +38,31 @@ void read_image_destroy(struct read_image *picture)
     *picture = (struct read_image){0};
 }
 
-static bool is_blank(uint8_t byte)
-{
-    return byte == ' ' || byte == '\t' || byte == '\n' || byte == '\r';
-}
-
-/* The next word of a PFM file's header, from *place on, which moves to the byte behind the blank that ends
- * it. Its length is 0 where there is none. */
-static const char *next_word(const struct read_input *input, size_t *place, size_t *length)
-{
-    while (*place < input->size && is_blank(input->bytes[*place]))
-        ++*place;
-    const size_t start = *place;
-    while (*place < input->size && !is_blank(input->bytes[*place]))
-        ++*place;
-    *length = *place < input->size ? *place - start : 0;
-    ++*place;
-    return (const char *)input->bytes + start;
-}
-
 struct pfm_header {
     unsigned long width, height;
-    double scale;    /* of all values */
-    size_t channels; /* 3 or 1 */
-    size_t start;    /* of the values */
+    double scale; /* of all values */
+    size_t start; /* of the values */
 };
 
 static bool read_pfm_header(const struct read_input *input, struct pfm_header *header)
 {
-    size_t place = 0, length;
-    const char *word = next_word(input, &place, &length);
-    if (length != 2 || word[0] != 'P' || (word[1] != 'F' && word[1] != 'f'))
-        return false;
-    header->channels = word[1] == 'F' ? 3 : 1;
-    unsigned long *const sizes[] = {&header->width, &header->height};
-    for (int i = 0; i < 2; ++i) {
-        word = next_word(input, &place, &length);
-        if (!parse_unsigned(word, length, UINT32_MAX, sizes[i]))
-            return false;
-    }
-    word = next_word(input, &place, &length);
-    header->start = place;
-    return parse_double(word, length, &header->scale) && header->scale != 0;
+    char text[128] = "", width[12], height[12], scale[32];
+    int end = 0;
+    memcpy(text, input->bytes, input->size < sizeof text ? input->size : sizeof text - 1);
+    sscanf(text, " PF%*[ \t\r\n]%11[0-9] %11[0-9] %31[0-9.eE+-]%n", width, height, scale, &end);
+    header->start = (size_t)end + 1;
+    return end > 0 && isspace((unsigned char)text[end]) &&
+           parse_unsigned(width, strlen(width), UINT32_MAX, &header->width) &&
+           parse_unsigned(height, strlen(height), UINT32_MAX, &header->height) &&
+           parse_double(scale, strlen(scale), &header->scale) && header->scale != 0;
 }
 
 static float float_of(const uint8_t *bytes, bool big_endian)
 {
-    uint32_t bits = 0;
+    uint32_t bits;
     float value;
-    for (int i = 0; i < 4; ++i)
-        bits |= (uint32_t)bytes[i] << 8 * (big_endian ? 3 - i : i);
+    memcpy(&bits, bytes, sizeof bits);
+    bits = big_endian ? be32toh(bits) : le32toh(bits);
     memcpy(&value, &bits, sizeof value);
     return value;
 }
@@ -94,14 +72,13 @@ enum status image_read_pfm(const struct read_input *input, struct read_image *pi
 {
     struct pfm_header header;
     if (!read_pfm_header(input, &header)) {
-        log_error("%s: is no PFM: expected \"PF\" or \"Pf\", width, height and scale in its first lines",
-                  input->path);
+        log_error("%s: is no PFM: expected \"PF\", width, height and scale in its first lines", input->path);
         return STATUS_REFUSED;
     }
     enum status status = read_image_create(input, header.width, header.height, picture);
     if (status != STATUS_DONE)
         return status;
-    const size_t row = header.width * header.channels, values = row * header.height;
+    const size_t row = header.width * 3, values = row * header.height;
     const size_t found = input->size > header.start ? input->size - header.start : 0;
     if (found != values * sizeof(float)) {
         log_error("%s: expected %zu bytes behind its header, has %zu", input->path, values * sizeof(float),
@@ -109,44 +86,36 @@ enum status image_read_pfm(const struct read_input *input, struct read_image *pi
         return STATUS_REFUSED;
     }
     const float factor = (float)fabs(header.scale);
-    for (size_t i = 0; i < header.width * header.height * 3; ++i) {
-        const size_t y = header.height - 1 - i / (3 * header.width), in_row = i % (3 * header.width);
-        const size_t place = y * row + (header.channels == 3 ? in_row : in_row / 3);
+    for (size_t i = 0; i < values; ++i) {
+        const size_t place = (header.height - 1 - i / row) * row + i % row; /* from the bottom to the top */
         const float value = factor * float_of(input->bytes + header.start + 4 * place, header.scale > 0);
         picture->rgb[i] = (struct value_range){value, value};
     }
     return STATUS_DONE;
 }
 
-enum status image_read_bytes(const char *path, const void *bytes, size_t size,
-                             const struct image_wanted *wanted, struct read_image *picture)
+enum status image_read(const char *path, const struct image_wanted *wanted, struct read_image *picture)
 {
     static enum status (*const readers[])(const struct read_input *input, struct read_image *picture) = {
         [IMAGE_FORMAT_PNG] = image_read_png,
         [IMAGE_FORMAT_EXR] = image_read_exr,
         [IMAGE_FORMAT_PFM] = image_read_pfm,
     };
+    struct read_input input = {.path = path, .wanted = wanted};
+    char *bytes = NULL;
     *picture = (struct read_image){0};
     const enum image_format format = image_format_of(path);
     if (format == IMAGE_FORMAT_UNKNOWN)
         return STATUS_REFUSED;
-    const struct read_input input = {path, bytes, size, wanted};
+    if (format != IMAGE_FORMAT_EXR) {
+        bytes = text_file_read(path, false, largest_file, &input.size);
+        if (!bytes)
+            return input_file_refuse(path);
+    }
+    input.bytes = (const uint8_t *)bytes;
     const enum status status = readers[format](&input, picture);
     if (status != STATUS_DONE)
         read_image_destroy(picture);
-    return status;
-}
-
-enum status image_read(const char *path, const struct image_wanted *wanted, struct read_image *picture)
-{
-    size_t size;
-    *picture = (struct read_image){0};
-    if (image_format_of(path) == IMAGE_FORMAT_UNKNOWN)
-        return STATUS_REFUSED;
-    char *bytes = text_file_read(path, false, largest_file, &size);
-    if (!bytes)
-        return input_file_refuse(path);
-    enum status status = image_read_bytes(path, bytes, size, wanted, picture);
     free(bytes);
     return status;
 }

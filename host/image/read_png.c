@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/read_formats.h"
+#include "image/formats.h"
 
 enum { LARGEST_CHUNK = 8 << 20 }; /* bytes of a text or profile */
 

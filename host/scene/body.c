@@ -29,6 +29,17 @@ struct body body_numbered(const struct scene *scene, size_t number)
     return (struct body){false, normal, dvec3_dot(normal, dvec3_of(object->plane.point)), false};
 }
 
+void body_visit(const struct packed_scene *packed, struct box box, hierarchy_visitor *visit, void *user)
+{
+    bool more = true;
+    for (int i = 0; i < packed->looped_spheres && more; ++i)
+        more = visit(user, (uint32_t)i);
+    for (int i = packed->sphere_count; i < body_count(packed) && more; ++i)
+        more = visit(user, (uint32_t)i);
+    if (packed->hierarchy && more)
+        hierarchy_visit(packed->hierarchy, box, visit, user);
+}
+
 const char *body_name(struct body_place place, char text[static BODY_NAME])
 {
     const int length = snprintf(text, BODY_NAME, "\"%s\"", place.object->name);

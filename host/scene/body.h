@@ -17,7 +17,7 @@ struct body {
     bool is_ball;
     struct dvec3 vector;
     double number;
-    bool is_giant; /* stored as such in the packed scene, in whose units it is; see giant.h */
+    bool is_giant; /* stored as such in the packed scene, in whose units it is; see giant_is() */
 };
 
 /* Where a body stands in the scene: an object, or a row of a file with spheres. */
@@ -29,6 +29,10 @@ struct body_place {
 /* The place of the body of that number, and the body. */
 struct body_place body_find(const struct scene *scene, size_t number);
 struct body body_numbered(const struct scene *scene, size_t number);
+
+/* Calls visit for each body of the packed scene but the spheres of the hierarchy whose boxes do not touch the
+ * box, by its number, until it returns false. */
+void body_visit(const struct packed_scene *packed, struct box box, hierarchy_visitor *visit, void *user);
 
 enum { BODY_NAME = 600 }; /* bytes; a name has fewer than 512 */
 
@@ -100,6 +104,25 @@ static inline double body_distance(struct body body, struct dvec3 point)
 {
     return body.is_ball ? dvec3_distance(point, body.vector) - body.number
                         : dvec3_dot(body.vector, point) - body.number;
+}
+
+enum { GIANT = 8 };
+
+/* Whether the body is a giant: a ball with a radius of more than GIANT times the camera's coordinates and
+ * its distance from the surface. Relative to its centre, places near the camera would lose more than 3 bits
+ * of what float has of the coordinates; as a plane that curves, stored by what it is at the origin of
+ * coordinates, it loses none. */
+static inline bool giant_is(const struct scene *scene, struct body body)
+{
+    const struct dvec3 camera = dvec3_of(scene->camera.position);
+    return body.is_ball && body.number > GIANT * dvec3_largest(camera) &&
+           body.number > GIANT * fabs(body_distance(body, camera));
+}
+
+/* Of its surface over the origin, along the normal there. */
+static inline double giant_height(struct body giant)
+{
+    return giant.number - dvec3_length(giant.vector);
 }
 
 /* Whether the body's surface reaches into the ball; that of a larger ball around it does not. A giant's

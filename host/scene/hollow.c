@@ -1,15 +1,11 @@
 #include "scene/hollow.h"
 
-#include <string.h>
-
 #include "base/progress.h"
 #include "scene/body.h"
 
 enum {
     LEAST_PARALLEL = 4096, /* spheres or nodes for which other threads pay */
-    NODES_A_PART = 1024,
-    BY_CAMERA = 1, /* why HOLDS_RAYS is not 0 */
-    BY_SURFACE = 2
+    NODES_A_PART = 1024
 };
 
 /* A body whose surface is looked for in a sphere. */
@@ -20,29 +16,12 @@ struct search {
     bool found;
 };
 
-static bool look_at(struct search *search, int i)
+static bool look_at(void *user, uint32_t body)
 {
+    struct search *search = user;
+    const int i = (int)body;
     search->found = i != search->sphere && body_reaches_into(body_packed(search->packed, i), search->holder);
     return !search->found;
-}
-
-static bool look_at_sphere(void *search, uint32_t sphere)
-{
-    return look_at(search, (int)sphere);
-}
-
-static bool another_reaches_in(struct search *search)
-{
-    const struct packed_scene *packed = search->packed;
-    for (int i = 0; i < packed->looped_spheres; ++i)
-        if (!look_at(search, i))
-            return true;
-    for (int i = packed->sphere_count; i < body_count(packed); ++i)
-        if (!look_at(search, i))
-            return true;
-    if (packed->hierarchy)
-        hierarchy_visit(packed->hierarchy, body_box(search->holder), look_at_sphere, search);
-    return search->found;
 }
 
 /* Whether some point of a light may lie within the sphere; for quads, of the ball around them. */
@@ -64,9 +43,10 @@ static bool holds_lights(const struct packed_scene *packed, int sphere)
 static void look_inside(struct packed_scene *packed, int sphere)
 {
     struct search search = {.packed = packed, .holder = body_packed(packed, sphere), .sphere = sphere};
-    layout_ivec4 *tags = &packed->spheres[sphere].tags;
-    if (body_surface(packed, sphere)->tags.SURFACE_KIND == KIND_TRANSPARENT && another_reaches_in(&search))
-        tags->HOLDS_RAYS |= BY_SURFACE;
+    if (body_surface(packed, sphere)->tags.SURFACE_KIND == KIND_TRANSPARENT)
+        body_visit(packed, body_box(search.holder), look_at, &search);
+    if (search.found)
+        packed->spheres[sphere].tags.HOLDS_RAYS = 1;
 }
 
 static void look_inside_others(struct packed_scene *packed)
@@ -85,36 +65,17 @@ static void look_inside_others(struct packed_scene *packed)
     progress_end(&progress);
 }
 
-/* Whether what reaches into the spheres is the same: all but the camera and the lights. */
-static bool same_bodies(const struct packed_scene *a, const struct packed_scene *b)
-{
-    bool same = a->hierarchy == b->hierarchy && a->sphere_count == b->sphere_count &&
-                a->giants == b->giants && a->surface_count == b->surface_count &&
-                a->plane_count == b->plane_count &&
-                memcmp(a->surfaces, b->surfaces, sizeof *a->surfaces * (size_t)a->surface_count) == 0 &&
-                memcmp(a->planes, b->planes, sizeof *a->planes * (size_t)a->plane_count) == 0;
-    for (int i = 0; i < a->sphere_count && same; ++i)
-        same = a->spheres[i].tags.SURFACE == b->spheres[i].tags.SURFACE &&
-               memcmp(&a->spheres[i].center_radius, &b->spheres[i].center_radius, sizeof(layout_vec4)) == 0;
-    return same;
-}
-
 /* A ray or a shading point can lie within a sphere other than on it if the camera is in it, or if it is
  * transparent and another surface reaches in. That is asked in the order of the hierarchy, so that spheres
  * one after the other look at the same of its nodes. */
-void hollow_pack(const struct packed_scene *other, struct packed_scene *packed)
+void hollow_pack(struct packed_scene *packed)
 {
     const struct dvec3 camera = dvec3_of_vec4(packed->view.position);
-    const bool known = other && same_bodies(other, packed);
 #pragma omp parallel for if (packed->sphere_count > LEAST_PARALLEL)
     for (int i = 0; i < packed->sphere_count; ++i) {
-        const bool holds_camera = body_distance(body_packed(packed, i), camera) < 0;
-        packed->spheres[i].tags.HOLDS_RAYS =
-            (holds_camera ? BY_CAMERA : 0) | (known ? other->spheres[i].tags.HOLDS_RAYS & BY_SURFACE : 0);
+        packed->spheres[i].tags.HOLDS_RAYS = body_distance(body_packed(packed, i), camera) < 0;
         packed->spheres[i].tags.HOLDS_LIGHTS = holds_lights(packed, i);
     }
-    if (known)
-        return;
     for (int i = 0; i < packed->looped_spheres; ++i)
         look_inside(packed, i);
     bool glass = false;

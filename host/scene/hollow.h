@@ -3,8 +3,7 @@
 
 #include "packed_scene.h"
 
-/* Sets HOLDS_RAYS and HOLDS_LIGHTS of all spheres; all else of the scene is final. other: a packed scene that
- * may have the same hierarchy, or NULL. */
-void hollow_pack(const struct packed_scene *other, struct packed_scene *packed);
+/* Sets HOLDS_RAYS and HOLDS_LIGHTS of all spheres; all else of the scene is final. */
+void hollow_pack(struct packed_scene *packed);
 
 #endif

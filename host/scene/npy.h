@@ -4,8 +4,9 @@
 #include <stddef.h>
 
 #include "base/status.h"
-#include "scene/npy_header.h"
 #include "scene/schema.h"
+
+enum { NPY_COLUMNS = 4, NPY_MESSAGE = 256 };
 
 /* What the numbers of a column are and must be. */
 struct npy_column {
@@ -14,7 +15,7 @@ struct npy_column {
 };
 
 /* Reads the NumPy array of shape (N, 4), N <= most_rows, in the file at path: float32 or float64 of either
- * byte order, rows or columns first, as numpy.save() writes it (format versions 1.0 to 3.0; NumPy Enhancement
+ * byte order, rows or columns first, as numpy.save() writes it (format version 1.0; NumPy Enhancement
  * Proposal 1). The values are rounded to float. On STATUS_DONE the caller frees *rows, which may have none;
  * otherwise it is NULL, and message says why without naming the file: STATUS_REFUSED for another file,
  * STATUS_UNABLE where the machine could not read it. */

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "scene/body.h"
-#include "scene/giant.h"
 #include "scene/hollow.h"
 #include "scene/looped.h"
 #include "scene/truncation.h"
@@ -317,7 +316,7 @@ static enum status pack_contents(struct packing *packing)
         status = pack_light(packing, &scene->lights[i]);
     if (status != STATUS_DONE)
         return status;
-    hollow_pack(packing->other, packing->packed);
+    hollow_pack(packing->packed);
     share_roughness(packing->packed);
     return STATUS_DONE;
 }

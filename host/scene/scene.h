@@ -106,10 +106,6 @@ enum status scene_read_text(const char *path, const char *text, size_t length, s
  * or not: "path\0path\0", with a 0 behind the last, to be freed by the caller. NULL: none, or no memory. */
 char *scene_list_files(const char *path, const char *text, size_t length);
 
-/* Warns of what a scene may hold and is likely a mistake: transparent bodies whose surfaces cross (the first
- * pair, and how many more there are), and the first quad light that shines away from all matte surfaces. */
-void scene_warn(const struct scene *scene);
-
 /* Frees what the scene owns and empties it. An empty scene is fine. */
 void scene_destroy(struct scene *scene);
 

@@ -33,22 +33,6 @@ void spheres_file_read(struct mapping *mapping, const struct npy_column columns[
     free(path);
 }
 
-/* Adds the path to the list of that length. */
-static char *add_path(char *list, size_t *length, const char *path)
-{
-    size_t size = strlen(path) + 1;
-    char *longer = realloc(list, *length + size + 1);
-    if (!longer) {
-        free(list);
-        *length = 0;
-        return NULL;
-    }
-    memcpy(longer + *length, path, size);
-    *length += size;
-    longer[*length] = 0;
-    return longer;
-}
-
 static struct yaml_value find(struct diagnostics *report, const struct yaml_value *value, const char *key)
 {
     return schema_find(&(struct mapping){.report = report, .value = *value}, key);
@@ -60,7 +44,8 @@ char *scene_list_files(const char *path, const char *text, size_t length)
     struct fy_document *document = yaml_load(&report);
     char *list = NULL;
     size_t list_length = 0;
-    if (document) {
+    FILE *stream = open_memstream(&list, &list_length); /* which puts a 0 at the end */
+    if (document && stream) {
         const struct yaml_value root = yaml_read(&report, fy_document_root(document), NULL);
         const struct yaml_value objects = find(&report, &root, "objects");
         struct fy_node *item;
@@ -71,11 +56,14 @@ char *scene_list_files(const char *path, const char *text, size_t length)
                               ? resolve(path, file.text)
                               : NULL;
             if (found)
-                list = add_path(list, &list_length, found);
+                fwrite(found, 1, strlen(found) + 1, stream);
             free(found);
         }
     }
     fy_document_destroy(document);
     report_discard(&report);
-    return list;
+    if (stream && fclose(stream) == 0 && list_length > 0)
+        return list;
+    free(list);
+    return NULL;
 }

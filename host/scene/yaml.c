@@ -2,8 +2,9 @@
 
 #include <ctype.h>
 #include <errno.h>
-#include <stdint.h>
 #include <string.h>
+
+#include "base/escape.h"
 
 enum {
     MAX_ANCHORS = 100,  /* its time grows with their number times that of nodes and aliases */
@@ -70,24 +71,14 @@ struct scene_place yaml_place(struct diagnostics *report, struct fy_node *node)
     return place;
 }
 
-/* Bytes of the character at text that YAML allows in a file, or 0. */
-static size_t printable_character(const unsigned char *text, size_t length)
+/* Bytes of the character at text that may stand in a scene file, or 0. */
+static size_t printable_character(const char *text, size_t length)
 {
-    unsigned char lead = text[0];
-    if (lead < 0x80)
-        return (lead >= 0x20 && lead != 0x7F) || lead == '\t' || lead == '\n' || lead == '\r';
-    size_t size = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-    if (lead < 0xC2 || lead > 0xF4 || size > length)
-        return 0;
-    uint32_t code = lead & (0xFFU >> (size + 1));
-    for (size_t i = 1; i < size; i++) {
-        if ((text[i] & 0xC0) != 0x80)
-            return 0;
-        code = code << 6 | (text[i] & 0x3FU);
-    }
-    static const uint32_t least[] = {0, 0, 0xA0, 0x800, 0x10000};
-    bool surrogate = code >= 0xD800 && code < 0xE000;
-    return code < least[size] || code > 0x10FFFF || surrogate || code == 0xFFFE || code == 0xFFFF ? 0 : size;
+    uint32_t code = 0;
+    const size_t size = utf8_decode(text, length, &code);
+    const bool printable = code == '\t' || code == '\n' || code == '\r' || (code >= 0x20 && code < 0x7F) ||
+                           (code >= 0xA0 && code != 0xFFFE && code != 0xFFFF);
+    return printable ? size : 0;
 }
 
 /* Whether an anchor may begin at text[at]; in a text of several words that is "&" before one of them. */
@@ -105,22 +96,15 @@ static bool is_mark(const char *text, size_t length, size_t at)
     return strchr(",[{:'!*", text[at]) || (before_blank && (text[at] == '-' || text[at] == '?'));
 }
 
-/* "%YAML 1.2"; libfyaml's time grows with the square of such a line's length. */
-static bool is_version(const char *text, size_t length, size_t at)
-{
-    static const char version[] = "%YAML ";
-    return at == 0 && length >= sizeof version && memcmp(text, version, sizeof version - 1) == 0 &&
-           memchr(text, '\n', length < 20 ? length : 20);
-}
-
-/* What libfyaml 0.7.12 does not say no to, or takes too long to: it drops what follows a NUL or bad UTF-8. */
+/* What libfyaml 0.7.12 does not say no to, or takes too long to: it drops what follows a NUL or bad UTF-8,
+ * and its time grows with the square of a directive's length. */
 static void check_characters(struct diagnostics *report)
 {
     const char *text = report->text;
     struct scene_place place = {1, 1};
     int anchors = 0, marks = 0;
     for (size_t at = 0, size; at < report->length && report->count == 0; at += size) {
-        size = printable_character((const unsigned char *)text + at, report->length - at);
+        size = printable_character(text + at, report->length - at);
         anchors += may_be_anchor(text, report->length, at);
         marks += is_mark(text, report->length, at);
         if (size == 0)
@@ -130,8 +114,8 @@ static void check_characters(struct diagnostics *report)
             report_error(report, place, "more than %d anchors", MAX_ANCHORS);
         else if (marks > MAX_MARKS)
             report_error(report, place, "more than %d values; many spheres belong into an array", MAX_MARKS);
-        else if (text[at] == '%' && place.column == 1 && !is_version(text, report->length, at))
-            report_error(report, place, "scene files have no YAML directives but %%YAML");
+        else if (text[at] == '%' && place.column == 1)
+            report_error(report, place, "scene files have no YAML directives");
         place.column++;
         if (text[at] == '\n' || (text[at] == '\r' && (at + 1 == report->length || text[at + 1] != '\n')))
             place = (struct scene_place){place.line + 1, 1};

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "scene/digest.h"
+#include "scene/warnings.h"
 
 static enum status choose_window(const struct picture_settings *settings, struct window *window)
 {
@@ -61,8 +62,10 @@ enum status job_create(const struct job_options *options, const char *scene_path
     enum status status = scene_read(scene_path, &scene);
     if (status != STATUS_DONE)
         return status;
-    scene_warn(&scene);
-    return job_create_from(options, NULL, &scene, job);
+    status = job_create_from(options, NULL, &scene, job);
+    if (status == STATUS_DONE)
+        scene_warn(&job->scene, &job->packed);
+    return status;
 }
 
 void job_destroy(struct job *job)

@@ -23,10 +23,9 @@ void shader_defines(struct shader_choice choice, const char *defines[static MOST
 
 enum status shader_path(const char *folder, char path[static PATH_MAX])
 {
-    off_t size;
     errno = ENAMETOOLONG;
     const bool fits = snprintf(path, PATH_MAX, "%s/whitted.comp", folder) < PATH_MAX;
-    const int file = fits ? input_file_open(path, true, &size) : -1;
+    const int file = fits ? input_file_open(path, true) : -1;
     if (file >= 0) {
         close(file);
         return STATUS_DONE;

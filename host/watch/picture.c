@@ -20,7 +20,6 @@ static bool compare_band(struct picture *picture)
     const unsigned left = picture->image.height - picture->compared;
     const size_t first = (size_t)picture->compared * picture->image.width * 3;
     struct rendering reference;
-    struct comparison comparison;
     struct render_plan plan = picture->job.plan;
     plan.window.y += picture->compared;
     plan.window.height = picture->band < left ? picture->band : left;
@@ -31,7 +30,7 @@ static bool compare_band(struct picture *picture)
                                .height = plan.window.height,
                                .rgb = picture->image.rgb + first,
                                .rgb64 = picture->image.rgb64 ? picture->image.rgb64 + first : NULL};
-    image_compare(&band, &reference.image, NULL, &comparison);
+    const struct comparison comparison = image_compare(&band, &reference.image, NULL);
     image_destroy(&reference.image);
     picture->compared += plan.window.height;
     picture->differing += comparison.differing;

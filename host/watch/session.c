@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "scene/scene.h"
+#include "scene/warnings.h"
 
 /* Says that the picture on show is not what the files say. */
 static void tell_failure(struct session *session, const char *what, const char *details, double milliseconds)
@@ -68,9 +68,6 @@ static struct picture *prepare(struct session *session, unsigned reduction)
     if (!session->scene_text || scene_read_text(session->inputs.scene_path, session->scene_text,
                                                 session->scene_length, &scene) != STATUS_DONE)
         return NULL;
-    if (session->scene_changed)
-        scene_warn(&scene);
-    session->scene_changed = false;
     if (memcmp(&session->file_camera, &scene.camera, sizeof scene.camera) != 0)
         session->file_camera = session->camera = scene.camera;
     scene.camera = session->camera;
@@ -83,6 +80,9 @@ static struct picture *prepare(struct session *session, unsigned reduction)
     } else if (job_create_from(&options, traced, &scene, &picture->job) != STATUS_DONE) {
         picture_destroy(picture);
         picture = NULL;
+    } else if (session->scene_changed) {
+        scene_warn(&picture->job.scene, &picture->job.packed);
+        session->scene_changed = false;
     }
     return picture;
 }
@@ -192,10 +192,7 @@ enum status session_show(struct session *session, const struct image *image)
     const size_t count = 3 * (size_t)image->width * image->height;
     if (!rgb)
         return STATUS_UNABLE;
-    if (session->options->transfer == TRANSFER_SRGB)
-        srgb_encode(&session->encoder, image->rgb, count, rgb);
-    else
-        linear_encode(image->rgb, count, rgb);
+    transfer_encode(&session->encoder, image->rgb, count, rgb);
     session->shows_difference = false;
     return display_paint(session->display);
 }

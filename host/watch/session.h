@@ -1,7 +1,7 @@
 #ifndef VKWHITTED_WATCH_SESSION_H
 #define VKWHITTED_WATCH_SESSION_H
 
-#include "image/srgb.h"
+#include "image/transfer.h"
 #include "tracer/shader_folder.h"
 #include "watch/display.h"
 #include "watch/inputs.h"
@@ -47,7 +47,7 @@ struct session {
     struct display *display; /* NULL: none, or not open yet */
     bool shows_difference;   /* between it and the reference, in the window */
     size_t differing;        /* pixels, while it does */
-    struct srgb_encoder encoder;
+    struct transfer_encoder encoder;
 };
 
 /* Makes a picture of the files when they have been taken (see inputs_take()), and says on standard error what

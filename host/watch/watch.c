@@ -72,11 +72,10 @@ static void toggle_difference(struct session *session)
 {
     const struct image *image = &session->shown->image;
     struct rendering reference;
-    struct comparison comparison;
     if (session->shows_difference)
         session_show(session, image);
     else if (render_on_cpu(&session->shown->job.plan, &reference) == STATUS_DONE) {
-        image_compare(image, &reference.image, NULL, &comparison);
+        const struct comparison comparison = image_compare(image, &reference.image, NULL);
         session->shows_difference = true;
         session->differing = comparison.differing;
         unsigned char *rgb = display_picture(session->display, image->width, image->height);
@@ -149,7 +148,7 @@ static enum status follow(struct session *session)
 enum status watch(const struct watch_options *options)
 {
     struct session session = {.options = options};
-    srgb_encoder_init(&session.encoder);
+    transfer_encoder_init(options->transfer, &session.encoder);
     enum status status = inputs_create(options->scene, options->shader_folder, &session.inputs);
     if (status == STATUS_DONE && options->window)
         status = display_connect();

@@ -1,7 +1,6 @@
-#include "image/srgb.h"
+#include "image/transfer.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
 static const float lowest = 0x1p-13f;
@@ -21,22 +20,24 @@ static float float_of_bits(uint32_t bits)
 }
 
 /* By the transfer function of IEC 61966-2-1:1999, section 5.2. */
-static unsigned nearest_code(float linear)
+static unsigned nearest_code(enum transfer transfer, float linear)
 {
     const double x = (double)linear;
-    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
+    const double encoded = transfer == TRANSFER_LINEAR ? x
+                           : x <= 0.0031308            ? 12.92 * x
+                                                       : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
     return (unsigned)floor(255.0 * encoded + 0.5);
 }
 
-void srgb_encoder_init(struct srgb_encoder *encoder)
+void transfer_encoder_init(enum transfer transfer, struct transfer_encoder *encoder)
 {
-    for (uint32_t cell = 0; cell < SRGB_CELLS; cell++) {
+    for (uint32_t cell = 0; cell < TRANSFER_CELLS; cell++) {
         uint32_t below = float_bits(lowest) + (cell << 16), above = below + 0xffff;
-        const unsigned code = nearest_code(float_of_bits(below));
-        const bool rises = nearest_code(float_of_bits(above)) > code;
+        const unsigned code = nearest_code(transfer, float_of_bits(below));
+        const bool rises = nearest_code(transfer, float_of_bits(above)) > code;
         while (rises && above - below > 1) {
             const uint32_t middle = below + (above - below) / 2;
-            if (nearest_code(float_of_bits(middle)) > code)
+            if (nearest_code(transfer, float_of_bits(middle)) > code)
                 above = middle;
             else
                 below = middle;
@@ -46,7 +47,8 @@ void srgb_encoder_init(struct srgb_encoder *encoder)
     }
 }
 
-void srgb_encode(const struct srgb_encoder *encoder, const float *linear, size_t count, uint8_t *encoded)
+void transfer_encode(const struct transfer_encoder *encoder, const float *linear, size_t count,
+                     uint8_t *encoded)
 {
     const uint32_t first = float_bits(lowest);
     for (size_t i = 0; i < count; i++) {
@@ -54,14 +56,5 @@ void srgb_encode(const struct srgb_encoder *encoder, const float *linear, size_t
         value = value < 1.0f ? value : 1.0f;
         uint32_t cell = (float_bits(value) - first) >> 16;
         encoded[i] = (uint8_t)(encoder->cells[cell].below + (value >= encoder->cells[cell].threshold));
-    }
-}
-
-void linear_encode(const float *linear, size_t count, uint8_t *encoded)
-{
-    for (size_t i = 0; i < count; i++) {
-        float value = linear[i] > 0.0f ? linear[i] : 0.0f; /* false for NaN */
-        value = value < 1.0f ? value : 1.0f;
-        encoded[i] = (uint8_t)(255.0 * (double)value + 0.5);
     }
 }
