@@ -50,6 +50,8 @@ struct errors {
     double x, y, z, length;
 };
 
+static const struct errors no_errors = {0, 0, 0, 0}; /* of what is exact */
+
 /* Of a number that is off by error, times v. */
 static inline struct errors errors_along(struct vec3 v, double error)
 {
@@ -207,12 +209,11 @@ static inline struct hit_error track_plane_hit(layout_vec4 plane, const struct r
                                                const struct ray_errors *error, const struct hit *hit)
 {
     const struct vec3 normal = vector_of(plane), direction = ray->direction;
-    const struct errors none = {0, 0, 0, 0};
     const real slope = dot(normal, direction);
     const double size = fabs((double)slope), distance = (double)hit->distance;
-    const double e_slope = dot_error(normal, none, direction, error->direction);
+    const double e_slope = dot_error(normal, no_errors, direction, error->direction);
     const double e_distance = (errors_weigh(normal, errors_of(3, ray->origin)) +
-                               distance * dot_error(normal, none, direction, none)) /
+                               distance * dot_error(normal, no_errors, direction, no_errors)) /
                                   size +
                               2 * unit_roundoff * distance;
     const double grown = 1 + relative_error(size, e_slope);
@@ -307,14 +308,13 @@ static inline struct hit_error track_hit(const struct packed_scene *scene, const
 static inline struct errors track_reflection(struct vec3 direction, struct errors e_direction,
                                              struct vec3 normal, struct errors e_normal)
 {
-    const struct errors none = {0, 0, 0, 0};
     const struct vec3 twice = scale(2, normal);
     const real cos_in = -dot(normal, direction);
     const struct vec3 reflected = add(direction, scale(cos_in, twice));
     struct errors sum =
         errors_add(errors_through(1, 1, twice, normal, e_direction),
                    errors_through(2 + 2 * (double)cos_in, 2 * (double)cos_in, twice, direction, e_normal));
-    sum = errors_add(sum, errors_along(twice, dot_error(normal, none, direction, none) +
+    sum = errors_add(sum, errors_along(twice, dot_error(normal, no_errors, direction, no_errors) +
                                                   unit_roundoff * fabs((double)cos_in)));
     return unit_errors(reflected, errors_add(sum, errors_of(1, reflected)));
 }

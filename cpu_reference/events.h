@@ -1,10 +1,22 @@
-/* How the tracer tells what it does, step by step, where the caller wants to know. */
+/* What is counted on the way of a pixel, and how the tracer tells what it does, step by step, where the
+ * caller wants to know. */
 #ifndef REFERENCE_EVENTS_H
 #define REFERENCE_EVENTS_H
 
 #include "dielectric.h"
 #include "geometry.h"
 #include "reference.h"
+#include "sobol.h"
+
+struct tally {
+    struct reference_rays rays;
+    uint32_t signature; /* hash of every decision of the ray tree */
+};
+
+static inline void note(struct tally *tally, uint32_t decision)
+{
+    tally->signature = hash32(tally->signature + decision);
+}
 
 static _Thread_local struct reference_log *event_log; /* NULL: nobody wants to know */
 

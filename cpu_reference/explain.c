@@ -5,7 +5,6 @@
 #include "events.h"
 #include "light_margin.h"
 #include "reference.h"
-#include "tally.h"
 
 struct pixel {
     const struct packed_scene *scene;

@@ -183,7 +183,6 @@ track_receive(const struct packed_scene *scene, const struct matte_point *matte,
               const struct point_errors *point, const struct PackedQuadLight *quad, struct vec3 light,
               struct errors e_light, struct vec3 *to_light, struct tally *tally)
 {
-    const struct errors none = {0, 0, 0, 0};
     const struct hit *hit = matte->hit;
     struct tracked_sample sample = {.received = (double)receive(scene, matte, light, to_light, tally)};
     const struct vec3 way = subtract(light, hit->point);
@@ -220,8 +219,9 @@ track_receive(const struct packed_scene *scene, const struct matte_point *matte,
     require_positive(&lit, cos_in, e_cos_in);
     require_positive(&lit, hides ? -shadow : shadow, 1);
     if (quad)
-        require_positive(&lit, (double)dot(vector_of(quad->area_normal), sample.direction),
-                         dot_error(vector_of(quad->area_normal), none, sample.direction, sample.e_direction));
+        require_positive(
+            &lit, (double)dot(vector_of(quad->area_normal), sample.direction),
+            dot_error(vector_of(quad->area_normal), no_errors, sample.direction, sample.e_direction));
     sample.margin = conjunction_margin(&lit);
     TELL(note_light_bounds(errors_vector(e_light), length_error(distance, off), e_cos_in, sample.error,
                            sample.margin));
@@ -253,7 +253,6 @@ static inline void track_quad(const struct packed_scene *scene, int number, cons
     const struct PackedQuadLight *quad = &scene->quad_lights[number];
     struct vec3 edge_u = vector_of(quad->edge_u), edge_v = vector_of(quad->edge_v), to_light = {0, 0, 0};
     const struct vec3 area = vector_of(quad->area_normal);
-    const struct errors none = {0, 0, 0, 0};
     double sum = 0, errors[] = {0, 0};
     for (int k = 0; k < scene->light_samples; ++k) {
         real u, v;
@@ -268,7 +267,7 @@ static inline void track_quad(const struct packed_scene *scene, int number, cons
         bool lit = sample.received > 0 && projected > 0;
         note(tally, lit);
         double e_projected =
-            dot_error(area, none, sample.direction, sample.e_direction) + FLT_MIN; /* denormal */
+            dot_error(area, no_errors, sample.direction, sample.e_direction) + FLT_MIN; /* denormal */
         double largest = larger((double)dot(area, sample.direction) + e_projected, 0);
         TELL(event_light.area_bound = e_projected);
         TELL(record_light(scene->point_light_count + number, k, light, projected));
@@ -289,8 +288,8 @@ static inline struct tracked_light track_lights(const struct packed_scene *scene
     struct tracked_light light = {.margin = INFINITY};
     for (int i = 0; i < scene->point_light_count; ++i) {
         struct vec3 position = vector_of(scene->point_lights[i].position), to_light;
-        struct tracked_sample sample = track_receive(scene, &matte, point, NULL, position,
-                                                     (struct errors){0, 0, 0, 0}, &to_light, tally);
+        struct tracked_sample sample =
+            track_receive(scene, &matte, point, NULL, position, no_errors, &to_light, tally);
         note(tally, sample.received > 0);
         TELL(record_light(i, 0, position, 1));
         add_light(&light, scene->point_lights[i].intensity, sample.received,

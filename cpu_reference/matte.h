@@ -5,7 +5,6 @@
 #include "events.h"
 #include "geometry.h"
 #include "sobol.h"
-#include "tally.h"
 
 struct matte_point {
     const struct ray *ray;

@@ -8,7 +8,6 @@
 #include "matte.h"
 #include "reference.h"
 #include "sobol.h"
-#include "tally.h"
 
 /* What tracing one sample of a pixel reads and gathers. */
 struct sample {

@@ -38,23 +38,23 @@ real native_root(real a)
 #endif
 
 // a / b and the root of a, correctly rounded except with FAST: by the device itself or, for a device that is not
-// exact (see host/vulkan/probe.h), corrected. CORRECTED is a define of its own because dead code costs lavapipe 50 ms.
+// exact (see host/vulkan/probe.h), corrected.
 real divide(real a, real b)
 {
 #ifdef CORRECTED
-    if (CORRECTED_DIVISION)
-        return corrected_quotient(a, b);
-#endif
+    return corrected_quotient(a, b);
+#else
     return native_quotient(a, b);
+#endif
 }
 
 real square_root(real a)
 {
 #ifdef CORRECTED
-    if (CORRECTED_ROOT)
-        return corrected_root(a);
-#endif
+    return corrected_root(a);
+#else
     return native_root(a);
+#endif
 }
 
 real dot3(real3 a, real3 b)

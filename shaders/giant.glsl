@@ -49,7 +49,7 @@ void meet_giant(Ray ray, int i, inout Hit nearest)
     real dividend = doubled, divisor = below;
     bool met = !own && line.slope < real(0) && line.crosses;
     bool from_inside = false;
-    if (rays_enter(i)) {
+    if (RAYS_ENTER_SPHERES) {
         bool through = own && ray.inward, inside = !own && line.height < real(0);
         bool rising = line.slope > real(0);
         exact real chord = line.slope < real(0) ? real(-2) * line.slope : real(0);

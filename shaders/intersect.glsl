@@ -73,12 +73,6 @@ void take(bool closer, inout Hit nearest, real distance, int surface, bool from_
     nearest.curvature = closer ? real(0) : nearest.curvature;
 }
 
-// Whether any ray can run inside sphere i.
-bool rays_enter(int i)
-{
-    return i >= 32 || (ENTERED_SPHERES >> i & 1u) != 0u;
-}
-
 void meet_sphere(Ray ray, int i, inout Hit nearest)
 {
     vec4 shape = get_sphere(i).center_radius;
@@ -93,7 +87,7 @@ void meet_sphere(Ray ray, int i, inout Hit nearest)
     exact real distance = approach.along - half_chord;
     bool met = !own && approach.along > real(0) && approach.half_chord_squared > real(0);
     bool from_inside = false;
-    if (rays_enter(i)) {
+    if (RAYS_ENTER_SPHERES) {
         // From the surface inward the way is a whole chord: it is certain to end on the sphere.
         bool through = own && ray.inward;
         exact real chord = approach.along > real(0) ? real(2) * approach.along : real(0);
@@ -216,7 +210,7 @@ bool sphere_shadows(int i, real3 point, int surface, bool inward, real3 to_light
     Approach approach = approach_sphere(to_center, to_light, radius);
     bool own = surface == i;
     bool shadows = approach.along > real(0) && approach.half_chord_squared > real(0) && approach.along < distance;
-    if (rays_enter(i) || SPHERES_HOLD_LIGHTS) {
+    if (RAYS_ENTER_SPHERES || SPHERES_HOLD_LIGHTS) {
         bool point_inside = own && inward;
         bool light_inside = false;
         if (SPHERES_HOLD_RAYS && get_sphere(i).tags.HOLDS_RAYS != 0 && !own)

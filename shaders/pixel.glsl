@@ -1,10 +1,12 @@
 // A pixel, sample after sample: what its rays bring, what it is charged for those that are not traced, and its values in
 // the picture.
 
-layout(std430, set = 0, binding = 8) buffer Picture { real4 picture[]; }; // the tile: RGB and charges; sums until the last sample
-layout(std430, set = 0, binding = 8) buffer Counts { uvec4 counts[]; }; // the same memory, for outputs that are integers
+// What a pixel's four values are: radiance and what the pixel is charged for rays that were not traced, summed over its
+// samples (0 unless wanted); or with COUNTS, in the same memory, the numbers of secondary and shadow rays, the path
+// signature (a hash of every decision of the ray tree) and 0.
+layout(std430, set = 0, binding = 8) buffer Picture { real4 picture[]; };
+layout(std430, set = 0, binding = 8) buffer Counts { uvec4 counts[]; };
 
-const bool INTEGERS = OUTPUT == OUTPUT_RAYS || OUTPUT == OUTPUT_SIGNATURE;
 const bool CHARGED = CHARGES || PRUNES || RECORDS;
 
 struct Pixel {
@@ -92,21 +94,13 @@ uint pixel_seed(uvec2 position)
     return SAMPLES > 1 || QUAD_LIGHTS > 0 ? hash(hash(position.x) + position.y) : 0u;
 }
 
-void begin_pixel(out Pixel pixel, uvec2 position, uint place)
+void begin_pixel(out Pixel pixel, uvec2 position)
 {
     pixel.radiance = real3(0);
     pixel.charges = real(0);
-    pixel.sample_index = first_sample;
+    pixel.sample_index = 0u;
     pixel.tally = Tally(0u, 0u, 0u);
     pixel.seed = pixel_seed(position);
-    if (SAMPLES_APART && INTEGERS)
-        pixel.tally.signature = first_sample > 0u ? counts[place].z : 0u; // rays are counted by the dispatch
-    if (SAMPLES_APART && !INTEGERS) {
-        if (first_sample > 0u) {
-            pixel.radiance = picture[place].xyz;
-            pixel.charges = picture[place].w;
-        }
-    }
     begin_sample(pixel);
 }
 
@@ -120,24 +114,22 @@ bool end_sample(inout Pixel pixel)
     pixel.radiance = radiance;
     pixel.charges = charges;
     ++pixel.sample_index;
-    if (pixel.sample_index < samples_end)
+    if (pixel.sample_index < uint(SAMPLES))
         begin_sample(pixel);
-    return pixel.sample_index >= samples_end;
+    return pixel.sample_index >= uint(SAMPLES);
 }
 
 void store(uint place, Pixel pixel)
 {
-    if (INTEGERS) {
+    if (COUNTS) {
         counts[place] = uvec4(pixel.tally.secondary_rays, pixel.tally.shadow_rays, pixel.tally.signature, 0u);
         return;
     }
     exact real3 value = pixel.radiance;
-    if (samples_end == uint(SAMPLES)) {
-        for (int c = 0; c < 3; ++c) {
-            value[c] = SAMPLES > 1 ? divide(value[c], real(SAMPLES)) : value[c];
-            value[c] = value[c] < real(SMALLEST_WEIGHT) ? real(0) : value[c]; // a NaN stays to be seen
-        }
-        TELL(emit(EVENT_PIXEL, ivec4(0), value, real3(0), real(0));)
+    for (int c = 0; c < 3; ++c) {
+        value[c] = SAMPLES > 1 ? divide(value[c], real(SAMPLES)) : value[c];
+        value[c] = value[c] < real(SMALLEST_WEIGHT) ? real(0) : value[c]; // a NaN stays to be seen
     }
+    TELL(emit(EVENT_PIXEL, ivec4(0), value, real3(0), real(0));)
     picture[place] = real4(value, CHARGED ? pixel.charges : real(0));
 }

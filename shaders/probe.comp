@@ -20,13 +20,12 @@ void main()
     exact float product_sum = a * b + c;
     exact float product_difference = c - a * b;
 
-    results[9u * i] = divide(a, b);
-    results[9u * i + 1u] = square_root(a < 0.0 ? -a : a);
-    results[9u * i + 2u] = sum;
-    results[9u * i + 3u] = difference;
-    results[9u * i + 4u] = product;
-    results[9u * i + 5u] = product_sum;
-    results[9u * i + 6u] = product_difference;
-    results[9u * i + 7u] = dot3(vec3(a, b, c), vec3(b, c, a));
-    results[9u * i + 8u] = fma(a, b, c);
+    results[8u * i] = divide(a, b);
+    results[8u * i + 1u] = square_root(a < 0.0 ? -a : a);
+    results[8u * i + 2u] = sum;
+    results[8u * i + 3u] = difference;
+    results[8u * i + 4u] = product;
+    results[8u * i + 5u] = product_sum;
+    results[8u * i + 6u] = product_difference;
+    results[8u * i + 7u] = dot3(vec3(a, b, c), vec3(b, c, a));
 }

@@ -55,7 +55,7 @@ void exchange(bool saves, inout Work work)
         exchange(saves, 2, work.pixel.sample_index);
     if (LIGHTS_TAKE_TURNS)
         exchange(saves, 3, work.light.next);
-    if (INTEGERS) {
+    if (COUNTS) {
         exchange(saves, 4, work.pixel.tally.secondary_rays);
         exchange(saves, 5, work.pixel.tally.shadow_rays);
         exchange(saves, 6, work.pixel.tally.signature);

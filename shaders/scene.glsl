@@ -28,26 +28,22 @@ layout(constant_id = 16) const bool MIXED_ORDER = true; // a plane stands before
 layout(constant_id = 17) const bool ONE_ROUGHNESS = false; // all matte surfaces have view.matte
 layout(constant_id = 18) const uint PLANE_AXES = 0u; // two bits a plane: normal along x 1, y 2, z 3, other 0
 layout(constant_id = 19) const uint COLUMNS = 1u; // pixels an invocation renders, a group's width apart
-layout(constant_id = 20) const uint ENTERED_SPHERES = ~0u; // a bit for each sphere that rays can run inside of
-RARE(21) const int OUTPUT = OUTPUT_RADIANCE; // what a pixel's three values are
-layout(constant_id = 22) const bool CORRECTED_DIVISION = true; // with CORRECTED: the device's own / is inexact
-layout(constant_id = 23) const bool CORRECTED_ROOT = true;     // with CORRECTED: the device's own sqrt is
+RARE(20) const bool COUNTS = false; // what a pixel's values are, see pixel.glsl
+RARE(21) const bool PRUNES = false; // rays are left out within the view's allowance
 
-RARE(24) const bool PRUNES = false; // rays are left out within the view's allowance
-
-RARE(25) const bool CHARGES = false; // pixels tell what they are charged for rays that are not traced
-layout(constant_id = 26) const bool RESUMABLE = false;  // see resume.glsl
-RARE(27) const bool RAYS_ESCAPE = false; // see escape.glsl
-RARE(28) const bool PROCESSOR = true; // the device is one, which runs invocations in the lanes of a vector
-RARE(29) const bool SAMPLES_APART = false; // a dispatch does not have all samples of a pixel
-layout(constant_id = 30) const uint LIGHT_POINTS_A_TURN = ~0u; // of all lights, see shade.glsl
-RARE(31) const uint GIANTS = 0u; // a bit for each sphere that is looped over: it is stored as a giant
-RARE(32) const bool HOISTED = true; // see hoist_scene()
-layout(constant_id = 33) const bool PRIMARY_RAYS_FIRST = true; // see render_primary_rays()
-layout(constant_id = 34) const int ALL_SPHERES = 0; // those that are not looped over, too; see hierarchy.glsl
-layout(constant_id = 35) const uint MOST_STEPS = 0u; // of all searches in a dispatch
+RARE(22) const bool CHARGES = false; // pixels tell what they are charged for rays that are not traced
+layout(constant_id = 23) const bool RESUMABLE = false;  // see resume.glsl
+RARE(24) const bool RAYS_ESCAPE = false; // see escape.glsl
+RARE(25) const bool PROCESSOR = true; // the device is one, which runs invocations in the lanes of a vector
+layout(constant_id = 26) const uint LIGHT_POINTS_A_TURN = ~0u; // of all lights, see shade.glsl
+RARE(27) const uint GIANTS = 0u; // a bit for each sphere that is looped over: it is stored as a giant
+RARE(28) const bool HOISTED = true; // see hoist_scene()
+layout(constant_id = 29) const bool PRIMARY_RAYS_FIRST = true; // see render_primary_rays()
+layout(constant_id = 30) const int ALL_SPHERES = 0; // those that are not looped over, too; see hierarchy.glsl
+layout(constant_id = 31) const uint MOST_STEPS = 0u; // of all searches in a dispatch
 
 const bool SECONDARY_RAYS = (MIRRORS || GLASS) && MAX_BOUNCES > 0;
+const bool RAYS_ENTER_SPHERES = GLASS || SPHERES_HOLD_RAYS;
 
 #ifdef SCENE_IN_STORAGE
 #define SCENE_ARRAY(slot, Type, name, count) \

@@ -39,14 +39,6 @@ typedef struct PackedSurface PackedSurface;
 /* A ray of smaller weight is not traced and a smaller pixel value is 0, for the same reason. */
 #define SMALLEST_WEIGHT 8.077935669463161e-28 /* 2^-90 */
 
-/* What a pixel's four values are: radiance and what the pixel is charged for rays that were not traced,
- * summed over its samples (0 unless wanted); or, as unsigned integers, the numbers of secondary and shadow
- * rays, the path signature (a hash of every decision of the ray tree) and 0, of which one output has the rays
- * and another the signature. */
-#define OUTPUT_RADIANCE 0
-#define OUTPUT_RAYS 1
-#define OUTPUT_SIGNATURE 2
-
 /* What the device has of the spheres that are not looped over, in records of four words; see hierarchy.glsl.
  */
 #define GRID_ORIGIN 0 /* records at the beginning: a point of the grid, and the boxes' largest coordinate */

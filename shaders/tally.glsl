@@ -1,4 +1,4 @@
-// What is counted and noted on the way, for outputs other than radiance; compiled away where it is not asked for.
+// What is counted and noted on the way; compiled away where it is not asked for.
 
 struct Tally {
     uint secondary_rays, shadow_rays;
@@ -8,6 +8,6 @@ struct Tally {
 // Adds a decision to the path's signature.
 void note(inout Tally tally, uint decision)
 {
-    if (OUTPUT == OUTPUT_SIGNATURE)
+    if (COUNTS)
         tally.signature = hash(tally.signature + decision);
 }

@@ -18,13 +18,11 @@
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(push_constant) uniform TileBlock {
     uvec2 origin, size, image_size; // pixels
-    uint first_sample, end_sample;  // of SAMPLES, in this dispatch
     uint goes_on;                   // not 0: with what the dispatch before has left
     uint most_turns;                // of the loop over rays
     uint threads;                   // that share the dispatch, each with groups that lie together
 } tile;
 uvec2 tile_origin, tile_size, image_size;
-uint first_sample, samples_end;
 
 #include "pixel.glsl"
 #include "path.glsl"
@@ -188,8 +186,8 @@ uint render_primary_rays(uvec2 first, uint columns)
         uint place = inside ? in_tile.y * tile_size.x + in_tile.x : 0u;
         Pixel pixel;
         Lighting light;
-        begin_pixel(pixel, tile_origin + in_tile, place);
-        for (uint k = SAMPLES > 1 ? first_sample : 0u; k < (SAMPLES > 1 ? samples_end : 1u); ++k) {
+        begin_pixel(pixel, tile_origin + in_tile);
+        for (int k = 0; k < SAMPLES; ++k) {
             Path path;
             Hit hit;
             real3 point, normal;
@@ -221,7 +219,7 @@ void turn(inout Work work, uvec2 first)
     uint place = in_tile.y * tile_size.x + in_tile.x;
     TELL(records_pixel = in_tile == uvec2(0);)
     if (!work.busy) {
-        begin_pixel(work.pixel, tile_origin + in_tile, place);
+        begin_pixel(work.pixel, tile_origin + in_tile);
         work.busy = true;
         work.fresh = true;
     }
@@ -288,11 +286,9 @@ void main()
     tile_origin = tile.origin;
     tile_size = tile.size;
     image_size = tile.image_size;
-    first_sample = SAMPLES_APART ? tile.first_sample : 0u;
-    samples_end = SAMPLES_APART ? tile.end_sample : uint(SAMPLES);
     uint most_turns = tile.most_turns;
     bool goes_on = RESUMABLE && tile.goes_on != 0u;
-    TELL(if (first_sample == 0u && !goes_on && gl_GlobalInvocationID == uvec3(0)) event_count = 0u;)
+    TELL(if (!goes_on && gl_GlobalInvocationID == uvec3(0)) event_count = 0u;)
     // lavapipe gives each thread groups that lie together: dealt out in turn, all get their share of what is dear
     uint share = gl_NumWorkGroups.y / tile.threads;
     uint group_y = gl_WorkGroupID.y % share * tile.threads + gl_WorkGroupID.y / share;

@@ -2,8 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-layout(constant_id = 0) const bool CORRECTED_DIVISION = true;
-layout(constant_id = 1) const bool CORRECTED_ROOT = true;
 #include "arithmetic.glsl"
 
 layout(local_size_x = 64) in;

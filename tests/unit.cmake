@@ -41,7 +41,7 @@ if(VKWHITTED_TESTS STREQUAL "all")
     add_unit_test(building) # whose times are those of a program without sanitizers
     target_link_options(unit_building PRIVATE -Wl,--wrap=clock_ms) # to have time fly
     add_unit_test(convergence)
-    list(APPEND device_modules pixel tracer properties total_reflection truncation values)
+    list(APPEND device_modules pixel tracer properties truncation values)
 endif()
 foreach(module IN LISTS device_modules)
     add_unit_test(${module})

@@ -72,19 +72,6 @@ static void compare_with_whole(struct window window)
     }
 }
 
-/* Lavapipe gets long groups of invocations that render many rows each; a graphics card gets square groups and
- * a row an invocation. */
-static void group_shape(void **state)
-{
-    (void)state;
-    VkPhysicalDeviceType real_type = test_context->properties.deviceType;
-    test_context->properties.deviceType = real_type == VK_PHYSICAL_DEVICE_TYPE_CPU
-                                              ? VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU
-                                              : VK_PHYSICAL_DEVICE_TYPE_CPU;
-    compare_with_whole(whole_window);
-    test_context->properties.deviceType = real_type;
-}
-
 /* A device whose storage buffers have room for so many pixels: below a row, a few rows, no divisor of
  * anything, more than the picture. */
 static void tile_size(void **state)
@@ -122,17 +109,6 @@ static void scene_in_storage_buffers(void **state)
     test_context->properties.limits.maxUniformBufferRange = 1;
     compare_with_whole(whole_window);
     test_context->properties.limits.maxUniformBufferRange = real_limit;
-}
-
-/* A device whose memory the host reads slowly: pictures are copied to other memory for it. */
-static void picture_is_copied_for_the_host(void **state)
-{
-    (void)state;
-    const VkPhysicalDeviceMemoryProperties real_memory = test_context->memory;
-    for (uint32_t i = 0; i < real_memory.memoryTypeCount; ++i)
-        test_context->memory.memoryTypes[i].propertyFlags &= ~(VkFlags)VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    compare_with_whole(whole_window);
-    test_context->memory = real_memory;
 }
 
 /* What fast mode may change is rounding: few pixels come out visibly different (those that look at an edge).
@@ -208,11 +184,9 @@ static int teardown(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(group_shape),
         cmocka_unit_test(tile_size),
         cmocka_unit_test(crop),
         cmocka_unit_test(scene_in_storage_buffers),
-        cmocka_unit_test(picture_is_copied_for_the_host),
         cmocka_unit_test(fast_mode_is_close),
         cmocka_unit_test(ray_counts),
         cmocka_unit_test(ray_counts_of_one_pixel),

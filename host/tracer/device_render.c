@@ -10,34 +10,30 @@ enum status render_once_on_device(void *renderer, const struct render_plan *plan
     return tracer_render(renderer, plan->window, &(struct tracer_values){.image = image}, progress, times);
 }
 
-static enum status create_tracer(struct vulkan_context *context, const struct render_plan *plan, int output,
+static enum status create_tracer(struct vulkan_context *context, const struct render_plan *plan, bool counts,
                                  struct tracer **tracer)
 {
     const struct tracer_options options = {
         .double_precision = plan->precision == PRECISION_DOUBLE,
         .fast = plan->fast,
         .shaders = plan->shaders,
-        .output = output,
-        .charges = output == OUTPUT_RADIANCE && plan->bound_truncation,
+        .counts = counts,
+        .charges = !counts && plan->bound_truncation,
     };
     return tracer_create(context, plan->scene, &options, tracer);
 }
 
-/* Renders another output than radiance, in a pipeline of its own. */
-static enum status render_output(struct vulkan_context *context, const struct render_plan *plan, int output,
-                                 const struct tracer_values *values)
+/* Counts rays and notes signatures, in a pipeline of its own. */
+static enum status render_counts(struct vulkan_context *context, const struct render_plan *plan,
+                                 const char *task, const struct tracer_values *values)
 {
-    static const char *const tasks[] = {
-        [OUTPUT_RAYS] = "counting rays",
-        [OUTPUT_SIGNATURE] = "path signatures",
-    };
     struct tracer *tracer;
     struct progress progress;
     struct tracer_times unused;
-    progress_start(&progress, tasks[output],
+    progress_start(&progress, task,
                    (uint64_t)plan->window.width * plan->window.height * (uint64_t)plan->scene->samples,
                    plan->quiet);
-    enum status status = create_tracer(context, plan, output, &tracer);
+    enum status status = create_tracer(context, plan, true, &tracer);
     for (unsigned y = 0; y < plan->window.height && status == STATUS_DONE;) {
         const struct window strip = window_strip(plan->window, plan->strips, y);
         status = tracer_render(tracer, strip, values, &progress, &unused);
@@ -51,7 +47,7 @@ static enum status render_output(struct vulkan_context *context, const struct re
 enum status rays_on_device(struct vulkan_context *context, const struct render_plan *plan,
                            struct reference_rays *rays)
 {
-    return render_output(context, plan, OUTPUT_RAYS, &(struct tracer_values){.rays = rays});
+    return render_counts(context, plan, "counting rays", &(struct tracer_values){.rays = rays});
 }
 
 enum status signatures_on_device(struct vulkan_context *context, const struct render_plan *plan,
@@ -61,7 +57,7 @@ enum status signatures_on_device(struct vulkan_context *context, const struct re
     if (!*signatures)
         return STATUS_UNABLE;
     enum status status =
-        render_output(context, plan, OUTPUT_SIGNATURE, &(struct tracer_values){.signatures = *signatures});
+        render_counts(context, plan, "path signatures", &(struct tracer_values){.signatures = *signatures});
     if (status != STATUS_DONE) {
         free(*signatures);
         *signatures = NULL;
@@ -75,7 +71,7 @@ enum status render_on_device(struct vulkan_context *context, const struct render
     *rendering = (struct rendering){0};
     double start = clock_ms();
     struct tracer *tracer;
-    enum status status = create_tracer(context, plan, OUTPUT_RADIANCE, &tracer);
+    enum status status = create_tracer(context, plan, false, &tracer);
     if (status != STATUS_DONE)
         return status;
     rendering->setup_ms = clock_ms() - start;

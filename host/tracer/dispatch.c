@@ -18,7 +18,7 @@ static size_t pixel_size(const struct dispatcher *dispatcher)
 struct specialization dispatcher_specialization(const struct dispatcher *dispatcher,
                                                 const struct packed_scene *scene)
 {
-    return specialize(dispatcher->context, scene, &dispatcher->size, &dispatcher->options);
+    return specialize(scene, &dispatcher->size, &dispatcher->options);
 }
 
 static enum status create_pass(struct dispatcher *dispatcher)
@@ -53,9 +53,10 @@ static enum status create_pass(struct dispatcher *dispatcher)
 enum status dispatcher_create(struct dispatcher *dispatcher)
 {
     const struct tracer_options *options = &dispatcher->options;
-    const bool counts = options->output == OUTPUT_RAYS || options->output == OUTPUT_SIGNATURE;
     dispatcher->size = dispatch_size_choose(dispatcher->context, dispatcher->scene, value_size(options));
-    dispatcher->value_type = counts ? VALUE_UINT32 : options->double_precision ? VALUE_DOUBLE : VALUE_FLOAT;
+    dispatcher->value_type = options->counts             ? VALUE_UINT32
+                             : options->double_precision ? VALUE_DOUBLE
+                                                         : VALUE_FLOAT;
     enum status status = scene_buffer_create(dispatcher->context, dispatcher->scene,
                                              dispatcher->choice.scene_in_storage, &dispatcher->scene_buffer);
     return status == STATUS_DONE ? create_pass(dispatcher) : status;

@@ -32,11 +32,10 @@ enum { CHANNELS = 4 };
  * are counted, integers: secondary rays, shadow rays, path signature. */
 enum value_type { VALUE_FLOAT, VALUE_DOUBLE, VALUE_UINT32 };
 
-/* A dispatch: samples of a tile. As TileBlock in whitted.comp. */
+/* What a dispatch does of a tile. As TileBlock in whitted.comp. */
 struct portion {
     uint32_t tile_x, tile_y, tile_width, tile_height, picture_width, picture_height; /* pixels */
-    uint32_t first_sample, end_sample;
-    uint32_t goes_on; /* with what the dispatch before has left of the samples */
+    uint32_t goes_on; /* with what the dispatch before has left */
     uint32_t most_turns, threads;
 };
 
@@ -88,8 +87,8 @@ void dispatch_frame_destroy(const struct dispatcher *dispatcher, struct dispatch
 /* Starts the frame's portion, but for its number of threads, which it sets. Failures are reported. */
 enum status dispatch_frame_start(const struct dispatcher *dispatcher, struct dispatch_frame *frame);
 
-/* Waits for it, and adds the device's time to *device_ms. *unfinished: the pixels of which not all the
- * portion's samples are in the values, so that the next dispatch has to go on with them. */
+/* Waits for it, and adds the device's time to *device_ms. *unfinished: the pixels that are not in the values
+ * yet, so that the next dispatch has to go on with them. */
 enum status dispatch_frame_wait(const struct dispatcher *dispatcher, struct dispatch_frame *frame,
                                 double *device_ms, uint32_t *unfinished);
 

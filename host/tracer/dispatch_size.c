@@ -74,13 +74,13 @@ static void choose_turns(const struct packed_scene *scene, bool primary_first, s
                                        ? at_least_1(points)
                                        : at_least_1((MOST_TURNS - smaller(ray, MOST_TURNS)) / point);
     const uint64_t turn = ray + points_a_turn * point;
-    size->primary_rays_first = primary_first && ray + points * point <= MOST_TURNS;
+    const uint64_t samples = (uint64_t)scene->samples;
+    size->primary_rays_first = primary_first && samples * (ray + points * point) <= MOST_TURNS;
     size->light_points_a_turn = (uint32_t)points_a_turn;
     size->most_turns = (uint32_t)at_least_1(MOST_TURNS / turn);
-    size->columns = (uint32_t)at_least_1(smaller(size->columns, MOST_TURNS / turn));
-    size->samples =
-        (uint32_t)smaller((uint64_t)scene->samples, at_least_1(MOST_TURNS / (size->columns * turn)));
-    const uint64_t turns = most_rays(scene) * (points / points_a_turn + 1) * size->samples;
+    if (size->primary_rays_first)
+        size->columns = (uint32_t)smaller(size->columns, MOST_TURNS / (samples * turn));
+    const uint64_t turns = most_rays(scene) * (points / points_a_turn + 1) * samples;
     while (size->columns > 4 && turns * size->columns > size->most_turns &&
            turns * size->columns / 4 <= size->most_turns)
         size->columns /= 2; /* which costs less than to go on in the next dispatch */
@@ -105,7 +105,7 @@ static void choose_tile(const struct vulkan_context *context, const struct packe
     enum { LEAST_PIXELS = 1024, MOST_PIXELS = 1 << 21, MOST_INVOCATIONS = 1 << 26 };
     const VkPhysicalDeviceLimits *limits = &context->properties.limits;
     uint64_t work_per_pixel =
-        size->samples * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
+        (uint64_t)scene->samples * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
     uint64_t pixels = (UINT64_C(1) << (size->on_processor ? 22 : 26)) / work_per_pixel;
     pixels = pixels < LEAST_PIXELS ? LEAST_PIXELS : smaller(pixels, MOST_PIXELS);
     pixels = smaller(pixels, limits->maxStorageBufferRange / (4 * value_size));

@@ -10,7 +10,6 @@ struct dispatch_size {
     uint32_t group_width, group_height; /* invocations in a work group */
     uint32_t columns;                   /* pixels that an invocation renders, a group's width apart */
     uint32_t threads;                   /* that share a dispatch */
-    uint32_t samples;                   /* at most, of each pixel */
     uint32_t light_points_a_turn;       /* of the loop over rays */
     bool primary_rays_first;            /* before the loop over rays */
     uint32_t most_turns;                /* of the loop over rays */

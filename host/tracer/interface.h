@@ -54,7 +54,7 @@ struct shader_choice {
 struct tracer_options {
     bool double_precision;         /* exact mode only, on a device with fp64 */
     bool fast;                     /* contraction and built-in functions allowed */
-    int output;                    /* OUTPUT_ of scene_layout.h */
+    bool counts;                   /* pixels have ray counts and signatures instead of radiance */
     bool charges;                  /* pixels tell what they are charged for rays that are not traced */
     uint32_t event_room;           /* 0: no events are recorded; exact mode only */
     struct spirv code;             /* of the shader that tracer_shader() tells; empty: the build's */

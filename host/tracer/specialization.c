@@ -26,8 +26,8 @@ static uint32_t plane_axis(layout_vec4 normal)
     return normal.x == 0 && normal.y == 0 ? 3 : 0;
 }
 
-struct specialization specialize(const struct vulkan_context *context, const struct packed_scene *scene,
-                                 const struct dispatch_size *size, const struct tracer_options *options)
+struct specialization specialize(const struct packed_scene *scene, const struct dispatch_size *size,
+                                 const struct tracer_options *options)
 {
     struct specialization constants = {
         .group_width = size->group_width,
@@ -41,15 +41,12 @@ struct specialization specialize(const struct vulkan_context *context, const str
         .light_samples = scene->light_samples,
         .one_roughness = VK_TRUE,
         .columns = size->columns,
-        .output = options->output,
-        .corrected_division = !context->arithmetic.division_exact,
-        .corrected_root = !context->arithmetic.root_exact,
+        .counts = options->counts,
         .prunes = scene->view.truncation.ALLOWANCE >= 0,
         .charges = options->charges,
         .resumable = size->resumable,
         .rays_escape = scene->view.between_mirrors.w != 0,
         .processor = size->on_processor,
-        .samples_apart = size->samples < (uint32_t)scene->samples,
         .light_points_a_turn = size->light_points_a_turn,
         .giants = scene->giants,
         .hoisted = size->on_processor && scene->looped_spheres + scene->plane_count +
@@ -66,8 +63,6 @@ struct specialization specialize(const struct vulkan_context *context, const str
         const layout_ivec4 tags = scene->spheres[i].tags;
         constants.spheres_hold_rays |= tags.HOLDS_RAYS != 0;
         constants.spheres_hold_lights |= tags.HOLDS_LIGHTS != 0;
-        if (i < 32 && (body_surface(scene, i)->tags.SURFACE_KIND == KIND_TRANSPARENT || tags.HOLDS_RAYS != 0))
-            constants.entered_spheres |= UINT32_C(1) << i;
         if (i < scene->looped_spheres)
             last_sphere_order = tags.FILE_ORDER;
     }
@@ -84,7 +79,6 @@ struct specialization specialize(const struct vulkan_context *context, const str
 
 bool is_plain(const struct specialization *constants)
 {
-    return constants->quad_lights == 0 && constants->output == OUTPUT_RADIANCE && !constants->prunes &&
-           !constants->charges && !constants->rays_escape && constants->processor &&
-           !constants->samples_apart && constants->giants == 0 && constants->hoisted;
+    return constants->quad_lights == 0 && !constants->counts && !constants->prunes && !constants->charges &&
+           !constants->rays_escape && constants->processor && constants->giants == 0 && constants->hoisted;
 }

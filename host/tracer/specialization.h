@@ -10,10 +10,8 @@ struct specialization {
     int32_t spheres, planes, point_lights, quad_lights, max_bounces, samples, light_samples;
     VkBool32 mirrors, glass, glass_planes, rough, spheres_hold_rays, spheres_hold_lights, planes_shadow,
         mixed_order, one_roughness;
-    uint32_t plane_axes, columns, entered_spheres;
-    int32_t output;                              /* OUTPUT_ */
-    VkBool32 corrected_division, corrected_root; /* see probe.h */
-    VkBool32 prunes, charges, resumable, rays_escape, processor, samples_apart;
+    uint32_t plane_axes, columns;
+    VkBool32 counts, prunes, charges, resumable, rays_escape, processor;
     uint32_t light_points_a_turn;
     uint32_t giants;
     VkBool32 hoisted, primary_rays_first;
@@ -21,10 +19,9 @@ struct specialization {
     uint32_t most_steps;
 };
 
-/* Finds what the scene and the device, whose arithmetic is known, need, so that the pipeline holds nothing
- * else. */
-struct specialization specialize(const struct vulkan_context *context, const struct packed_scene *scene,
-                                 const struct dispatch_size *size, const struct tracer_options *options);
+/* Finds what the scene and the options need, so that the pipeline holds nothing else. */
+struct specialization specialize(const struct packed_scene *scene, const struct dispatch_size *size,
+                                 const struct tracer_options *options);
 
 /* Whether the shader's constants that are RARE have the values that its plain variant fixes. */
 bool is_plain(const struct specialization *constants);

@@ -2,8 +2,9 @@
 #define VKWHITTED_TRACER_TRACER_H
 
 #include "base/progress.h"
+#include "image/image.h"
+#include "reference.h"
 #include "tracer/interface.h"
-#include "tracer/values.h"
 #include "vulkan/context.h"
 
 /* The compute pipeline for one packed scene, specialised to it. */
@@ -23,6 +24,20 @@ void tracer_destroy(struct tracer **tracer);
  * right for that: if no number of things and no feature is different. Otherwise returns false and changes
  * nothing. */
 bool tracer_update(struct tracer *tracer, const struct packed_scene *scene);
+
+/* Where a window's values go; NULL: nowhere. With tracer_options.counts that is the last two. */
+struct tracer_values {
+    struct image *image; /* of the window's size; gets the values in double precision and the charges, if it
+                          * has room */
+    struct reference_rays *rays; /* the window's are added */
+    uint32_t *signatures;        /* a pixel each */
+};
+
+/* How long a picture took, in milliseconds: from the first submission to the last completion, and on the
+ * device by its own timestamps (where it has none, as the first). */
+struct tracer_times {
+    double dispatch_ms, device_ms;
+};
 
 /* Renders the window of the picture. Advances progress, whose unit is a sample of a pixel. A failure
  * (reported) leaves the pipeline as it was. */

@@ -14,7 +14,7 @@ static const uint64_t seed = 1980;
 
 /* In the order of probe.comp. */
 struct results {
-    float quotient, root, sum, difference, product, product_sum, product_difference, dot, fma;
+    float quotient, root, sum, difference, product, product_sum, product_difference, dot;
 };
 
 static bool same(float a, float b)
@@ -57,11 +57,10 @@ static void judge_basics(const struct operands *on, const struct results *result
 
 static void judge(const struct operands *operands, const struct results *results, struct arithmetic *found)
 {
-    size_t kept = 0, flushed = 0, fused = 0, unfused = 0;
     *found =
         (struct arithmetic){.known = true, .basics_exact = true, .division_exact = true, .root_exact = true};
     for (size_t i = 0; i < PROBES; ++i) {
-        const float a = operands[i].a, b = operands[i].b, c = operands[i].c, product = a * b;
+        const float a = operands[i].a, b = operands[i].b, c = operands[i].c;
         if (!counts(a) || !counts(b) || !counts(c))
             continue;
         if (counts(a / b) && !same(results[i].quotient, a / b))
@@ -69,17 +68,7 @@ static void judge(const struct operands *operands, const struct results *results
         if (!same(results[i].root, sqrtf(fabsf(a))))
             found->root_exact = false;
         judge_basics(&operands[i], &results[i], found);
-        if (product != 0 && fabsf(product) < FLT_MIN) {
-            kept += same(results[i].product, product);
-            flushed += results[i].product == 0;
-        } else if (counts(product) && counts(product + c)) {
-            float once = fmaf(a, b, c);
-            fused += !same(once, product + c) && same(results[i].fma, once);
-            unfused += !same(once, product + c) && same(results[i].fma, product + c);
-        }
     }
-    found->denormals = !flushed ? DENORMALS_KEPT : !kept ? DENORMALS_FLUSHED : DENORMALS_MIXED;
-    found->fma = !unfused ? FUSED_ALWAYS : !fused ? FUSED_NEVER : FUSED_MIXED;
 }
 
 enum status probe_arithmetic(struct vulkan_context *context)
@@ -118,21 +107,14 @@ enum status probe_require_exact(struct vulkan_context *context)
 
 enum status probe_print(struct vulkan_context *context)
 {
-    static const char *const denormals[] = {"kept", "flushed", "kept and flushed"};
-    static const char *const fma[] = {"fused", "not fused", "fused at times"};
     enum status status = probe_arithmetic(context);
     if (status != STATUS_DONE)
         return status;
     const struct arithmetic *found = &context->arithmetic;
-    bool native = found->division_exact && found->root_exact;
-    printf("      arithmetic      ÷ %s, √ %s, %s: %s; denormals %s, fma %s\n",
-           found->division_exact ? "exact" : "inexact", found->root_exact ? "exact" : "inexact",
-           found->basics_exact ? "no contraction" : found->flaw,
-           !found->basics_exact    ? "only --fast"
-           : native                ? "native"
-           : found->root_exact     ? "÷ corrected"
-           : found->division_exact ? "√ corrected"
-                                   : "corrected",
-           denormals[found->denormals], fma[found->fma]);
+    printf("      arithmetic      ÷ %s, √ %s, %s: %s\n", found->division_exact ? "exact" : "inexact",
+           found->root_exact ? "exact" : "inexact", found->basics_exact ? "no contraction" : found->flaw,
+           !found->basics_exact      ? "only --fast"
+           : needs_correction(found) ? "corrected"
+                                     : "native");
     return STATUS_DONE;
 }

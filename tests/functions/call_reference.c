@@ -5,24 +5,9 @@
 #include "matte.h"
 #include "sobol.h"
 
-void call_divide(const divide_input *input, divide_output *output)
-{
-    output->quotient = input->dividend / input->divisor;
-}
-
-void call_root(const root_input *input, root_output *output)
-{
-    output->root = square_root(input->square);
-}
-
 void call_unit(const unit_input *input, unit_output *output)
 {
     output->unit_vector = normalize(input->vector);
-}
-
-void call_hash(const hash_input *input, hash_output *output)
-{
-    output->hashed = (int)hash32((uint32_t)input->number);
 }
 
 void call_sobol_point(const sobol_point_input *input, sobol_point_output *output)

@@ -6,8 +6,7 @@
 #include "vulkan/probe.h"
 
 enum { SCENE_BINDINGS = 8, INPUTS = SCENE_BINDINGS, OUTPUTS, BINDINGS };
-enum { GROUP = 64 }; /* invocations, as in functions.comp */
-enum { CORRECTED_DIVISION = 22, CORRECTED_ROOT };
+enum { GROUP = 64 };         /* invocations, as in functions.comp */
 enum { SCENE_BYTES = 1024 }; /* more than one view, or three elements of any kind */
 
 enum status device_create(struct vulkan_context *context, bool corrected, struct device *device)
@@ -15,8 +14,7 @@ enum status device_create(struct vulkan_context *context, bool corrected, struct
     const VkDeviceSize size = (VkDeviceSize)BATCH * MOST_WORDS * sizeof(union word);
     *device = (struct device){.context = context};
     enum status status = probe_require_exact(context);
-    device->corrected_division = corrected || !context->arithmetic.division_exact;
-    device->corrected_root = corrected || !context->arithmetic.root_exact;
+    device->corrected = corrected || needs_correction(&context->arithmetic);
     if (status == STATUS_DONE)
         status = vulkan_buffer_create(context, "scene", SCENE_BYTES, BUFFER_UPLOAD, &device->scene);
     if (status == STATUS_DONE)
@@ -44,9 +42,8 @@ void device_destroy(struct device *device)
  */
 static size_t read_spirv(const struct device *device, const char *function, uint32_t *words, size_t room)
 {
-    bool native = !device->corrected_division && !device->corrected_root;
     char path[4096];
-    snprintf(path, sizeof path, SPIRV_FOLDER "/%s%s.spv", function, native ? "" : "_corrected");
+    snprintf(path, sizeof path, SPIRV_FOLDER "/%s%s.spv", function, device->corrected ? "_corrected" : "");
     FILE *file = fopen(path, "rb");
     size_t count = file ? fread(words, sizeof *words, room, file) : 0;
     if (count == 0 || count == room) {
@@ -77,8 +74,6 @@ enum status device_load(struct device *device, const struct function_test *test)
     uint32_t count = 0;
     for (int i = 0; i < COMMON_CONSTANTS; ++i)
         set_constant(constants, &count, common_constants[i]);
-    set_constant(constants, &count, (struct pass_constant){CORRECTED_DIVISION, device->corrected_division});
-    set_constant(constants, &count, (struct pass_constant){CORRECTED_ROOT, device->corrected_root});
     for (int i = 0; i < MOST_CONSTANTS && test->constants[i].id != 0; ++i)
         set_constant(constants, &count, test->constants[i]);
     VkDescriptorType bindings[BINDINGS];

@@ -14,7 +14,7 @@ enum { BATCH = 1 << 16 }; /* cases a dispatch */
  * and reads its outputs in place. */
 struct device {
     struct vulkan_context *context;
-    bool corrected_division, corrected_root;
+    bool corrected;             /* division and root */
     struct vulkan_buffer scene; /* functions.comp has the scene's bindings, and never reads them */
     struct vulkan_buffer inputs, outputs;
     struct vulkan_pass pass; /* of the function that is loaded */

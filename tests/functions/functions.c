@@ -15,10 +15,8 @@ static const char usage[] = "usage: functions [OPTION]...\n"
                             "  --cases N     of each test (default 1048576)\n"
                             "  --first N     the number of the first case (default 0)\n"
                             "  --test NAME   only the test of this name\n"
-                            "  --device N|NAME\n"
                             "  --corrected   with the division and root for inexact devices\n"
-                            "  --validate    with the Khronos validation layer\n"
-                            "  --list        the tests' names\n";
+                            "  --validate    with the Khronos validation layer\n";
 
 enum { SHOWN_FAILURES = 3 }; /* of each test */
 
@@ -151,9 +149,8 @@ static enum status run_tests(const struct plan *plan, struct vulkan_context *con
         free(expected);
         return status;
     }
-    bool corrected = device.corrected_division || device.corrected_root;
     printf("%s%s, seed %lu, %lu cases each from %lu\n", context->properties.deviceName,
-           corrected ? ", corrected" : "", plan->seed, plan->cases, plan->first);
+           device.corrected ? ", corrected" : "", plan->seed, plan->cases, plan->first);
     printf("%-34s %10s %12s %12s\n", "function", "differing", "device ns", "C ns");
     size_t matching = 0;
     for (size_t i = 0; i < function_test_count && result <= STATUS_DIFFERS; ++i) {
@@ -174,15 +171,13 @@ static enum status run_tests(const struct plan *plan, struct vulkan_context *con
 
 static bool read_plan(int argc, char **argv, struct plan *plan)
 {
-    enum { SEED = 1, CASES, FIRST, TEST, DEVICE, CORRECTED, VALIDATE, LIST };
+    enum { SEED = 1, CASES, FIRST, TEST, CORRECTED, VALIDATE };
     static const struct option options[] = {{"seed", required_argument, NULL, SEED},
                                             {"cases", required_argument, NULL, CASES},
                                             {"first", required_argument, NULL, FIRST},
                                             {"test", required_argument, NULL, TEST},
-                                            {"device", required_argument, NULL, DEVICE},
                                             {"corrected", no_argument, NULL, CORRECTED},
                                             {"validate", no_argument, NULL, VALIDATE},
-                                            {"list", no_argument, NULL, LIST},
                                             {0}};
     int option;
     bool valid = true;
@@ -195,16 +190,10 @@ static bool read_plan(int argc, char **argv, struct plan *plan)
             valid = parse_unsigned(optarg, length, UINT32_MAX, number);
         } else if (option == TEST) {
             plan->only = optarg;
-        } else if (option == DEVICE) {
-            plan->vulkan.device = optarg;
         } else if (option == CORRECTED) {
             plan->corrected = true;
         } else if (option == VALIDATE) {
             plan->vulkan.validate = true;
-        } else if (option == LIST) {
-            for (size_t i = 0; i < function_test_count; ++i)
-                puts(function_tests[i].name);
-            exit(STATUS_DONE);
         } else {
             valid = false;
         }

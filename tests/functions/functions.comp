@@ -64,24 +64,9 @@ Matte matte_of(MatteRecord matte)
                  matte.surface, matte.inward != 0, matte.a, matte.b);
 }
 
-void call_divide(divide_input i, out divide_output o)
-{
-    o.quotient = divide(i.dividend, i.divisor);
-}
-
-void call_root(root_input i, out root_output o)
-{
-    o.root = square_root(i.square);
-}
-
 void call_unit(unit_input i, out unit_output o)
 {
     o.unit_vector = vector_of(unit(vec3_of(i.vector)));
-}
-
-void call_hash(hash_input i, out hash_output o)
-{
-    o.hashed = int(hash(uint(i.number)));
 }
 
 void call_sobol_point(sobol_point_input i, out sobol_point_output o)

@@ -65,17 +65,8 @@ STRUCT(HitRecord, HIT)
 STRUCT(SegmentRecord, SEGMENT)
 STRUCT(MatteRecord, MATTE)
 
-#define INPUT_divide(MEMBER) MEMBER(float, dividend) MEMBER(float, divisor)
-#define OUTPUT_divide(MEMBER) MEMBER(float, quotient)
-
-#define INPUT_root(MEMBER) MEMBER(float, square)
-#define OUTPUT_root(MEMBER) MEMBER(float, root)
-
 #define INPUT_unit(MEMBER) MEMBER(Vector, vector)
 #define OUTPUT_unit(MEMBER) MEMBER(Vector, unit_vector)
-
-#define INPUT_hash(MEMBER) MEMBER(int, number)
-#define OUTPUT_hash(MEMBER) MEMBER(int, hashed)
 
 #define INPUT_sobol_point(MEMBER) MEMBER(int, seed) MEMBER(int, index)
 #define OUTPUT_sobol_point(MEMBER) MEMBER(float, u) MEMBER(float, v)
@@ -119,15 +110,13 @@ STRUCT(MatteRecord, MATTE)
 #define OUTPUT_quad_light(MEMBER) MEMBER(Vector, radiance) MEMBER(int, shadow_rays)
 
 #define FUNCTIONS(DO)                                                                                        \
-    DO(divide)                                                                                               \
-    DO(root)                                                                                                 \
     DO(unit)                                                                                                 \
-    DO(hash)                                                                                                 \
     DO(sobol_point)                                                                                          \
     DO(meet_sphere)                                                                                          \
     DO(meet_plane)                                                                                           \
-    DO(nearest_hit) DO(sphere_shadows) DO(plane_shadows) DO(reflect) DO(refract) DO(oren_nayar)              \
-        DO(point_light) DO(quad_light)
+    DO(nearest_hit)                                                                                          \
+    DO(sphere_shadows) DO(plane_shadows) DO(reflect) DO(refract) DO(oren_nayar) DO(point_light)              \
+        DO(quad_light)
 
 #define MAKE_RECORDS(name)                                                                                   \
     STRUCT(name##_input, INPUT_##name)                                                                       \
