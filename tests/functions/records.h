@@ -115,8 +115,7 @@ STRUCT(MatteRecord, MATTE)
     DO(meet_sphere)                                                                                          \
     DO(meet_plane)                                                                                           \
     DO(nearest_hit)                                                                                          \
-    DO(sphere_shadows) DO(plane_shadows) DO(reflect) DO(refract) DO(oren_nayar) DO(point_light)              \
-        DO(quad_light)
+    DO(sphere_shadows) DO(plane_shadows) DO(reflect) DO(refract) DO(oren_nayar) DO(point_light) DO(quad_light)
 
 #define MAKE_RECORDS(name)                                                                                   \
     STRUCT(name##_input, INPUT_##name)                                                                       \
