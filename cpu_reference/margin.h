@@ -261,8 +261,8 @@ static inline struct tree_line tree_line_in_float(struct vec3 origin, struct vec
     struct tree_line line = tree_line(origin, direction);
     if (!(wanted > 0)) /* however large the errors are */
         return line;
-    line.e_origin += wanted * error.origin;
-    line.e_direction += wanted * error.direction;
+    line.e_origin += wanted * error.origin * (1 + error.direction); /* as in track_approach() */
+    line.e_direction += wanted * error.direction * (1 + error.direction / 2);
     line.unit += wanted * unit_roundoff;
     return line;
 }

@@ -182,11 +182,11 @@ static void rows_of_a_file(void **state)
                   OVERLAP_OF("10:5", "\"P\"", "\"Flake\" row 0", " (and 5 other pairs)"));
 }
 
-/* A hundred thousand spheres in one place overlap in five billion pairs, of which a thousand are counted. */
+/* Fifty thousand spheres in one place overlap in a billion pairs, of which a thousand are counted. */
 static void dense_cloud(void **state)
 {
     (void)state;
-    enum { COUNT = 100000 };
+    enum { COUNT = 50000 };
     static float rows[COUNT][4];
     srand48(1);
     for (int i = 0; i < COUNT; ++i) {
