@@ -193,16 +193,18 @@ static double uniform(double from, double to)
 }
 
 /* Small ones and large ones, now and then a larger one; some touch one before from within or without. */
-static void scatter(float place[4], size_t before)
+static void scatter(size_t i)
 {
+    float *row = rows[i];
     for (int c = 0; c < 3; ++c)
-        place[c] = (float)uniform(-10, 10);
-    place[3] = (float)pow(10, uniform(-1.5, 0.3));
+        row[c] = (float)uniform(-10, 10);
+    row[3] = (float)pow(10, uniform(-1.5, 0.3));
     if (drand48() < 0.01)
-        place[3] = 50;
-    if (before > 0 && drand48() < 0.3) {
-        memcpy(place, place - 4, 3 * sizeof *place);
-        place[0] += place[-1] + (drand48() < 0.5 ? place[3] : -place[3]);
+        row[3] = 50;
+    if (i > 0 && drand48() < 0.3) {
+        const float *before = rows[i - 1];
+        memcpy(row, before, 3 * sizeof *row);
+        row[0] += before[3] + (drand48() < 0.5 ? row[3] : -row[3]);
     }
 }
 
@@ -214,7 +216,7 @@ static void tags_of_random_scenes(void **state)
     for (int seed = 0; seed < 40; ++seed) {
         srand48(seed);
         for (size_t i = 0; i < 200; ++i)
-            scatter(rows[i], i);
+            scatter(i);
         npy_write("glass.npy", 150, rows);
         npy_write("matte.npy", 50, rows + 150);
         struct packed_scene packed =
@@ -274,7 +276,7 @@ static void moved_camera(void **state)
         struct packed_scene first, beside, anew;
         srand48(seed);
         for (size_t i = 0; i < 200; ++i)
-            scatter(rows[i], i);
+            scatter(i);
         npy_write("glass.npy", 150, rows);
         npy_write("matte.npy", 50, rows + 150);
         assert_int_equal(scene_read_text("a.yaml", text, strlen(text), &scene), STATUS_DONE);
