@@ -63,8 +63,8 @@ static inline struct tracked_approach track_approach(layout_vec4 center_radius, 
     double apart = length(to_center), radius = (double)center_radius.w;
     double center_offset = length(approach.center_offset);
     double half_chord_squared = (double)at_least_zero(approach.half_chord_squared);
-    /* apart * sin() of the angle to the centre, whose own sine and cosine are center_offset and along: where
-     * the line is at right angles to the way to the centre, the second order is all there is */
+    /* The line's distance from the centre is apart * sin(angle). Turned by d it changes by at most
+     * apart * (|cos(angle)| d + d^2 / 2); at a right angle the square is all there is. */
     double e_clearance =
         error.origin +
         (fabs((double)approach.along) + error.origin + apart * error.direction / 2) * error.direction +
