@@ -158,20 +158,33 @@ void dispatch_frame_destroy(const struct dispatcher *dispatcher, struct dispatch
     *frame = (struct dispatch_frame){0};
 }
 
+/* Adds the copy to the staging buffer. */
+static void copy_to_staging(const struct dispatcher *dispatcher, const struct dispatch_frame *frame,
+                            struct pass_dispatch *dispatch)
+{
+    const struct portion *portion = &frame->portion;
+    dispatch->copy_from = frame->buffers[PICTURE].buffer;
+    dispatch->copy_to = frame->staging.buffer;
+    dispatch->copy_size =
+        (VkDeviceSize)portion->tile_width * portion->tile_height * pixel_size(dispatcher);
+}
+
 enum status dispatch_frame_start(const struct dispatcher *dispatcher, struct dispatch_frame *frame)
 {
     const struct dispatch_size *size = &dispatcher->size;
     const uint32_t groups = groups_down(size, frame->portion.tile_height),
                    threads = dealt_threads(size, groups);
     frame->portion.threads = threads;
+    struct pass_dispatch dispatch = {
+        .push_constants = &frame->portion,
+        .groups_x = groups_across(size, frame->portion.tile_width),
+        .groups_y = (groups + threads - 1) / threads * threads,
+    };
     if (size->resumable)
         *(uint32_t *)frame->buffers[OUTCOME].mapped = 0;
-    enum status status =
-        pass_frame_submit(&frame->frame, &(struct pass_dispatch){
-                                             .push_constants = &frame->portion,
-                                             .groups_x = groups_across(size, frame->portion.tile_width),
-                                             .groups_y = (groups + threads - 1) / threads * threads,
-                                         });
+    else if (frame->staging.buffer)
+        copy_to_staging(dispatcher, frame, &dispatch);
+    enum status status = pass_frame_submit(&frame->frame, &dispatch);
     frame->under_way = status == STATUS_DONE;
     return status;
 }
@@ -187,15 +200,10 @@ enum status dispatch_frame_wait(const struct dispatcher *dispatcher, struct disp
 
 enum status dispatch_frame_fetch(const struct dispatcher *dispatcher, struct dispatch_frame *frame)
 {
-    if (!frame->staging.buffer)
+    struct pass_dispatch copy = {0};
+    if (!frame->staging.buffer || !dispatcher->size.resumable)
         return STATUS_DONE;
-    const struct portion *portion = &frame->portion;
-    enum status status =
-        pass_frame_submit(&frame->frame, &(struct pass_dispatch){
-                                             .copy_from = frame->buffers[PICTURE].buffer,
-                                             .copy_to = frame->staging.buffer,
-                                             .copy_size = (VkDeviceSize)portion->tile_width *
-                                                          portion->tile_height * pixel_size(dispatcher),
-                                         });
+    copy_to_staging(dispatcher, frame, &copy);
+    enum status status = pass_frame_submit(&frame->frame, &copy);
     return status == STATUS_DONE ? pass_frame_wait(&frame->frame, NULL) : status;
 }

@@ -92,7 +92,7 @@ enum status dispatch_frame_start(const struct dispatcher *dispatcher, struct dis
 enum status dispatch_frame_wait(const struct dispatcher *dispatcher, struct dispatch_frame *frame,
                                 double *device_ms, uint32_t *unfinished);
 
-/* Brings the values where the host reads them well. */
+/* Brings the values where the host reads them well, if the dispatch has not. */
 enum status dispatch_frame_fetch(const struct dispatcher *dispatcher, struct dispatch_frame *frame);
 
 #endif

@@ -98,11 +98,24 @@ static void choose_memory(const struct packed_scene *scene, struct dispatch_size
     size->saved_words = WORK_WORDS + 3 * paths;
 }
 
-/* So that a dispatch ends well within a second, and its buffers fit. */
+/* For the slots of a dispatch's invocations, of which two may be under way beside all that others have. */
+static uint64_t most_saved_bytes(const struct vulkan_context *context)
+{
+    uint64_t largest_heap = 0;
+    for (uint32_t i = 0; i < context->memory.memoryHeapCount; ++i)
+        if (context->memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT &&
+            context->memory.memoryHeaps[i].size > largest_heap)
+            largest_heap = context->memory.memoryHeaps[i].size;
+    return smaller(context->properties.limits.maxStorageBufferRange, largest_heap / 16);
+}
+
+/* So that a dispatch ends well within a second, and its buffers fit. A graphics card whose memory does not do
+ * for so many invocations has each of them render several pixels: that is faster than more dispatches, which
+ * all wait for their longest pixel. */
 static void choose_tile(const struct vulkan_context *context, const struct packed_scene *scene,
                         size_t value_size, struct dispatch_size *size)
 {
-    enum { LEAST_PIXELS = 1024, MOST_PIXELS = 1 << 21, MOST_INVOCATIONS = 1 << 26 };
+    enum { LEAST_PIXELS = 1024, MOST_PIXELS = 1 << 21, MOST_INVOCATIONS = 1 << 26, MOST_COLUMNS = 32 };
     const VkPhysicalDeviceLimits *limits = &context->properties.limits;
     uint64_t work_per_pixel =
         (uint64_t)scene->samples * (1 + (uint64_t)scene->light_samples * (uint64_t)scene->quad_light_count);
@@ -111,9 +124,14 @@ static void choose_tile(const struct vulkan_context *context, const struct packe
     pixels = smaller(pixels, limits->maxStorageBufferRange / (4 * value_size));
     size->tile_pixels = (unsigned)at_least_1(pixels);
     const uint64_t saved_bytes = size->saved_reals * SAVED_REAL_BYTES * (value_size / sizeof(float));
-    const uint64_t invocations = limits->maxStorageBufferRange / at_least_1(saved_bytes);
+    const uint64_t invocations = most_saved_bytes(context) / at_least_1(saved_bytes);
     const uint64_t groups = smaller(invocations, MOST_INVOCATIONS) / (size->group_width * size->group_height);
     size->tile_groups = (unsigned)at_least_1(groups - most_excess((uint32_t)groups));
+    if (size->on_processor)
+        return;
+    pixels = smaller(pixels, (uint64_t)scene->width * (uint64_t)scene->height);
+    size->columns = (uint32_t)at_least_1(smaller(pixels / at_least_1(invocations), MOST_COLUMNS));
+    size->resumable = size->resumable || size->columns > 1;
 }
 
 struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,

@@ -177,6 +177,7 @@ static enum status take(struct course *course, struct dispatch_frame *frame)
         rays->shadow += counts[CHANNELS * i + 1];
     }
     const unsigned x = portion->tile_x - course->window.x, y = portion->tile_y - course->window.y;
+#pragma omp parallel for if (frame->staging.buffer) /* otherwise the processors render the next tile */
     for (unsigned row = 0; row < portion->tile_height; ++row)
         copy_row(frame, dispatcher->value_type, (size_t)row * portion->tile_width, portion->tile_width,
                  (size_t)(y + row) * course->window.width + x, course->values);

@@ -9,9 +9,10 @@ enum {
     CACHED = HOST | VK_MEMORY_PROPERTY_HOST_CACHED_BIT,
 };
 
-/* The best of the allowed memory types. Each device has one for the last of each row (Vulkan 1.3, 11.2.1). */
-static uint32_t find_memory_type(const struct vulkan_context *context, uint32_t allowed,
-                                 enum buffer_memory memory)
+/* The best of the allowed memory types: of many graphics cards the host sees 256 MiB. Each device has one for
+ * the last of each row (Vulkan 1.3, 11.2.1). */
+static uint32_t find_memory_type(const struct vulkan_context *context,
+                                 const VkMemoryRequirements *requirements, enum buffer_memory memory)
 {
     static const VkMemoryPropertyFlags preferences[][3] = {
         [BUFFER_DEVICE] = {LOCAL | CACHED, LOCAL, 0},
@@ -20,9 +21,12 @@ static uint32_t find_memory_type(const struct vulkan_context *context, uint32_t 
     };
     for (int preference = 0; preference < 3; ++preference) {
         VkMemoryPropertyFlags wanted = preferences[memory][preference];
-        for (uint32_t i = 0; i < context->memory.memoryTypeCount; ++i)
-            if ((allowed >> i & 1) && (context->memory.memoryTypes[i].propertyFlags & wanted) == wanted)
+        for (uint32_t i = 0; i < context->memory.memoryTypeCount; ++i) {
+            const VkMemoryType *type = &context->memory.memoryTypes[i];
+            if (requirements->memoryTypeBits >> i & 1 && (type->propertyFlags & wanted) == wanted &&
+                context->memory.memoryHeaps[type->heapIndex].size >= requirements->size)
                 return i;
+        }
     }
     return 0;
 }
@@ -43,7 +47,7 @@ enum status vulkan_buffer_create(struct vulkan_context *context, const char *nam
     vulkan_name(context, VK_OBJECT_TYPE_BUFFER, (uint64_t)buffer->buffer, name);
     VkMemoryRequirements requirements;
     vkGetBufferMemoryRequirements(context->device, buffer->buffer, &requirements);
-    uint32_t type = find_memory_type(context, requirements.memoryTypeBits, memory);
+    uint32_t type = find_memory_type(context, &requirements, memory);
     VkResult result = vkAllocateMemory(context->device,
                                        &(VkMemoryAllocateInfo){
                                            .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,

@@ -11,6 +11,8 @@ agreement_as_graphics_card() {
     expect 0 "$VKWHITTED" check -q --validate --size 97x61 "$SOURCE_DIR"/scenes/figure_*.yaml "$SOURCE_DIR"/scenes/hard/{bubble,diamond,facing_mirrors,ground_sphere,thin_shell,touching}.yaml
     expect 0 "$VKWHITTED" check -q --size 60x40 --samples 3 --light-samples 5 "$SOURCE_DIR"/scenes/figure_{2b,4}.yaml
     expect 0 "$VKWHITTED" check -q --size 30x20 --max-bounces 64 "$SOURCE_DIR/scenes/hard/diamond.yaml"
+    # so many slots that there is no room for an invocation a pixel
+    expect 0 "$VKWHITTED" check -q --size 160x100 --max-bounces 1000 "$SOURCE_DIR/scenes/figure_4.yaml"
     expect 0 "$VKWHITTED" check -q --size 4x4 --light-samples 65536 "$SOURCE_DIR/scenes/figure_2b.yaml"
 }
 

@@ -20,7 +20,7 @@ enum status device_create(struct vulkan_context *context, bool corrected, struct
     if (status == STATUS_DONE)
         memset(device->scene.mapped, 0, SCENE_BYTES);
     if (status == STATUS_DONE)
-        status = vulkan_buffer_create(context, "inputs", size, BUFFER_UPLOAD, &device->inputs);
+        status = vulkan_buffer_create(context, "inputs", size, BUFFER_READBACK, &device->inputs);
     if (status == STATUS_DONE)
         status = vulkan_buffer_create(context, "outputs", size, BUFFER_READBACK, &device->outputs);
     if (status != STATUS_DONE)
