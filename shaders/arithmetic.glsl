@@ -35,6 +35,7 @@ real native_root(real a)
 
 #ifdef CORRECTED
 #include "corrected.glsl"
+layout(constant_id = 32) const bool CORRECTED_DIVISION = true; // not so on NVIDIA's devices, where only sqrt is inexact
 #endif
 
 // a / b and the root of a, correctly rounded except with FAST: by the device itself or, for a device that is not
@@ -42,7 +43,7 @@ real native_root(real a)
 real divide(real a, real b)
 {
 #ifdef CORRECTED
-    return corrected_quotient(a, b);
+    return CORRECTED_DIVISION ? corrected_quotient(a, b) : native_quotient(a, b);
 #else
     return native_quotient(a, b);
 #endif

@@ -18,7 +18,9 @@ static size_t pixel_size(const struct dispatcher *dispatcher)
 struct specialization dispatcher_specialization(const struct dispatcher *dispatcher,
                                                 const struct packed_scene *scene)
 {
-    return specialize(scene, &dispatcher->size, &dispatcher->options);
+    struct specialization constants = specialize(scene, &dispatcher->size, &dispatcher->options);
+    constants.corrected_division = !dispatcher->context->arithmetic.division_exact;
+    return constants;
 }
 
 static enum status create_pass(struct dispatcher *dispatcher)

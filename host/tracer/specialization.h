@@ -4,7 +4,8 @@
 #include "tracer/dispatch_size.h"
 #include "tracer/interface.h"
 
-/* The values of the shader's constants 0, 1, 2...; shaders/scene.glsl says what they mean. */
+/* The values of the shader's constants 0, 1, 2...; shaders/scene.glsl and
+ * arithmetic.glsl say what they mean. */
 struct specialization {
     uint32_t group_width, group_height;
     int32_t spheres, planes, point_lights, quad_lights, max_bounces, samples, light_samples;
@@ -17,6 +18,7 @@ struct specialization {
     VkBool32 hoisted, primary_rays_first;
     int32_t all_spheres;
     uint32_t most_steps;
+    VkBool32 corrected_division;
 };
 
 /* Finds what the scene and the options need, so that the pipeline holds nothing else. */
