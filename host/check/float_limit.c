@@ -12,9 +12,11 @@ enum {
     SIDE = 16, /* pixels looked at are SIDE times SIDE */
     LEAST_OFF = SIDE * SIDE / 20,
     MOST_BOUNCES = 3, /* these and light samples are few, so that it takes a millisecond */
-    MOST_LIGHT_SAMPLES = 4,
-    FAR_OUT = 16 /* a camera so many times as far from the origin of coordinates as from what it sees */
+    MOST_LIGHT_SAMPLES = 4
 };
+
+/* A camera so many times as far from the origin of coordinates as from what it sees. */
+static const double far_camera = 16;
 
 /* Ordinary scenes have a few pixels, on edges and in glass, that float takes another way: up to 0.7 %, 2.8 %
  * in a mirrored cloud of spheres of four decades. Where float does not resolve what is seen, it is most. */
@@ -78,7 +80,7 @@ static void warn(const struct job *job, struct off_pixel off, double share)
     const struct scene *scene = &job->scene;
     const double distance = off.distance / pack_scale(scene),
                  coordinates = dvec3_largest(dvec3_of(scene->camera.position));
-    const bool far_out = coordinates > FAR_OUT * distance;
+    const bool far_out = coordinates > far_camera * distance;
     char name[BODY_NAME], size[32] = "", why[96];
     const size_t number = (size_t)body_file_order(&job->packed, off.surface);
     const struct body_place place = body_find(scene, number);

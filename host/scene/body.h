@@ -106,17 +106,15 @@ static inline double body_distance(struct body body, struct dvec3 point)
                         : dvec3_dot(body.vector, point) - body.number;
 }
 
-enum { GIANT = 8 };
-
-/* Whether the body is a giant: a ball with a radius of more than GIANT times the camera's coordinates and
+/* Whether the body is a giant: a ball with a radius of more than eight times the camera's coordinates and
  * its distance from the surface. Relative to its centre, places near the camera would lose more than 3 bits
  * of what float has of the coordinates; as a plane that curves, stored by what it is at the origin of
  * coordinates, it loses none. */
 static inline bool giant_is(const struct scene *scene, struct body body)
 {
     const struct dvec3 camera = dvec3_of(scene->camera.position);
-    return body.is_ball && body.number > GIANT * dvec3_largest(camera) &&
-           body.number > GIANT * fabs(body_distance(body, camera));
+    return body.is_ball && body.number > 8 * dvec3_largest(camera) &&
+           body.number > 8 * fabs(body_distance(body, camera));
 }
 
 /* Of its surface over the origin, along the normal there. */

@@ -104,7 +104,7 @@ static struct split choose_split(const struct leaf *leaves, uint32_t count)
     for (int a = 0; a < 3; ++a) {
         float length = centers.hi[a] - centers.lo[a];
         split.origin[a] = centers.lo[a];
-        split.bins_per_length[a] = length > FLT_MIN ? fminf(BINS * 0.9999F / length, FLT_MAX) : 0;
+        split.bins_per_length[a] = length > FLT_MIN ? fminf((float)BINS * 0.9999F / length, FLT_MAX) : 0;
     }
     struct bin bins[3][BINS];
     for (int i = 0; i < 3 * BINS; ++i)

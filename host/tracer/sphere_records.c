@@ -33,7 +33,7 @@ struct writing {
 static void lay_grid(struct writing *writing, const struct box *box)
 {
     for (int a = 0; a < 3; ++a) {
-        float step = (float)(((double)box->hi[a] - (double)box->lo[a]) / STEPS);
+        float step = (float)(((double)box->hi[a] - (double)box->lo[a]) / (double)STEPS);
         writing->step[a] = nextafterf(fmaxf(step, 0x1p-100F), INFINITY);
         writing->origin[a] = (float)((double)box->lo[a] - (double)STEPS_BELOW * (double)writing->step[a]);
     }
