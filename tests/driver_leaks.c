@@ -1,4 +1,4 @@
-/* Linked into every program of a sanitized build: leaks of the Vulkan driver and of the validation layer are
+/* Linked into every program of a sanitized build: leaks of the drivers and of the validation layer are
  * not ours. LeakSanitizer can tell whose a leak is only while the library is loaded. */
 const char *__lsan_default_options(void);
 const char *__lsan_default_suppressions(void);
@@ -15,6 +15,7 @@ const char *__lsan_default_suppressions(void)
            "leak:libLLVM\n"
            "leak:libstdc++\n" /* behind whose operator new no caller is seen; only libraries use it */
            "leak:libVkLayer_khronos_validation\n"
+           "leak:libGLX_mesa\n"
            "leak:libX11\n"; /* what a call held when the display went away */
 }
 

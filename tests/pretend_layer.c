@@ -217,7 +217,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical_de
     FIND(dispatch, vkCmdDispatch);
 #undef FIND
 #define FIND(name, may_lose_device)                                                                          \
-    if (next_device_function(*device, #name))                                                                \
+    if (strcmp(#name, "vkEnumeratePhysicalDevices") != 0 && next_device_function(*device, #name))            \
         next_##name = next_device_function(*device, #name);
     FUNCTIONS(FIND)
 #undef FIND

@@ -9,6 +9,7 @@ set -m # or else the shell has background jobs ignore SIGINT
 start() {
     env --default-signal=TERM,HUP,PIPE "$VKWHITTED" "$@" >out 2>err &
     pid=$!
+    while [ "$(<"/proc/$pid/comm")" = "$(<"/proc/$$/comm")" ]; do :; done # lest a signal meets the shell's child
 }
 
 # ends_by SIGNAL ARGUMENTS...: the signal ends the program soon, by that signal, and nothing is left behind.
