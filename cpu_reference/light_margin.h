@@ -254,9 +254,10 @@ static inline void track_quad(const struct packed_scene *scene, int number, cons
     struct vec3 edge_u = vector_of(quad->edge_u), edge_v = vector_of(quad->edge_v), to_light = {0, 0, 0};
     const struct vec3 area = vector_of(quad->area_normal);
     double sum = 0, errors[] = {0, 0};
+    const uint32_t first = sobol_block(seed, pixel_sample, scene->light_samples);
     for (int k = 0; k < scene->light_samples; ++k) {
         real u, v;
-        sobol_point(seed, pixel_sample * (uint32_t)scene->light_samples + (uint32_t)k, &u, &v);
+        sobol_point(seed, first + (uint32_t)k, &u, &v);
         struct vec3 light = add(add(vector_of(quad->corner), scale(u, edge_u)), scale(v, edge_v));
         struct errors e_light = errors_add(errors_of(1, scale(u, edge_u)), errors_of(1, scale(v, edge_v)));
         e_light = errors_add(

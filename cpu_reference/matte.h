@@ -68,9 +68,10 @@ static inline struct vec3 receive_quad(const struct packed_scene *scene, const s
 {
     struct vec3 edge_u = vector_of(quad->edge_u), edge_v = vector_of(quad->edge_v);
     real sum = 0;
+    const uint32_t first = sobol_block(seed, pixel_sample, scene->light_samples);
     for (int k = 0; k < scene->light_samples; ++k) {
         real u, v;
-        sobol_point(seed, pixel_sample * (uint32_t)scene->light_samples + (uint32_t)k, &u, &v);
+        sobol_point(seed, first + (uint32_t)k, &u, &v);
         struct vec3 light = add(add(vector_of(quad->corner), scale(u, edge_u)), scale(v, edge_v));
         struct vec3 to_light = {0, 0, 0};
         real received = receive(scene, matte, light, &to_light, tally);

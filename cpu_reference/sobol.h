@@ -53,12 +53,25 @@ static inline uint32_t sobol_second(uint32_t index)
 /* Point `index` of the sequence that belongs to seed, u and v in [0, 1), multiples of 2^-24. */
 static inline void sobol_point(uint32_t seed, uint32_t index, real *u, real *v)
 {
-    uint32_t shuffle = hash32(seed);
-    uint32_t shuffled = owen_scramble(index, shuffle);
-    uint32_t first = owen_scramble(reverse_bits(shuffled), hash32(shuffle + 1));
-    uint32_t second = owen_scramble(sobol_second(shuffled), hash32(shuffle + 2));
+    uint32_t first = owen_scramble(reverse_bits(index), hash32(hash32(seed) + 1));
+    uint32_t second = owen_scramble(sobol_second(index), hash32(hash32(seed) + 2));
     *u = (real)(first >> 8) * (real)0x1p-24;
     *v = (real)(second >> 8) * (real)0x1p-24;
+}
+
+/* The numbers in another order, such that blocks stay together whose sizes are powers of two. */
+static inline uint32_t sobol_shuffle(uint32_t seed, uint32_t number)
+{
+    return owen_scramble(number, hash32(seed));
+}
+
+/* The first of a block of at least so many points of a light, one block for each sample of the pixel. */
+static inline uint32_t sobol_block(uint32_t seed, uint32_t pixel_sample, int points)
+{
+    uint32_t first = sobol_shuffle(seed, pixel_sample);
+    for (int size = 1; size < points; size *= 2)
+        first *= 2;
+    return first;
 }
 
 #endif

@@ -58,7 +58,12 @@ Sequence sequence_of(uint seed)
 // Point number `index` of the sequence in u, v in [0, 1).
 void sequence_point(Sequence sequence, uint index, out real u, out real v)
 {
-    uint shuffled = bitfieldReverse(scramble_reversed(bitfieldReverse(index), sequence.shuffle));
-    u = fraction(bitfieldReverse(scramble_reversed(shuffled, sequence.scramble_u)));
-    v = fraction(bitfieldReverse(scramble_reversed(sobol_second_reversed(shuffled), sequence.scramble_v)));
+    u = fraction(bitfieldReverse(scramble_reversed(index, sequence.scramble_u)));
+    v = fraction(bitfieldReverse(scramble_reversed(sobol_second_reversed(index), sequence.scramble_v)));
+}
+
+// Keeps blocks of numbers together whose sizes are powers of two.
+uint shuffled(Sequence sequence, uint number)
+{
+    return bitfieldReverse(scramble_reversed(bitfieldReverse(number), sequence.shuffle));
 }

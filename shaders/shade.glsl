@@ -48,10 +48,10 @@ real point_irradiance(Matte matte, real3 light, out real3 to_light, inout Tally 
 }
 
 // Point k of a quad light: its irradiance times the area that the point sees.
-real quad_point(Matte matte, int i, Sequence sequence, uint first_sample, int k, inout Tally tally)
+real quad_point(Matte matte, int i, Sequence sequence, uint first, int k, inout Tally tally)
 {
     real u, v;
-    sequence_point(sequence, first_sample + uint(k), u, v);
+    sequence_point(sequence, first + uint(k), u, v);
     exact real3 light = real3(get_quad_light(i).corner.xyz) + u * real3(get_quad_light(i).edge_u.xyz) +
                         v * real3(get_quad_light(i).edge_v.xyz);
     real3 to_light;
@@ -64,12 +64,19 @@ real quad_point(Matte matte, int i, Sequence sequence, uint first_sample, int k,
     return seen;
 }
 
-real3 quad_radiance(Matte matte, int i, uint first_sample, uint seed, inout Tally tally)
+// The points that go with a sample of the pixel begin a block of the sequence.
+uint first_point(Sequence sequence, uint sample_index)
+{
+    return shuffled(sequence, sample_index) << (findMSB(LIGHT_SAMPLES - 1) + 1);
+}
+
+real3 quad_radiance(Matte matte, int i, uint sample_index, uint seed, inout Tally tally)
 {
     Sequence sequence = sequence_of(seed);
+    uint first = first_point(sequence, sample_index);
     exact real sum = real(0);
     for (int k = 0; k < LIGHT_SAMPLES; ++k)
-        sum = sum + quad_point(matte, i, sequence, first_sample, k, tally);
+        sum = sum + quad_point(matte, i, sequence, first, k, tally);
     exact real3 total = real3(get_quad_light(i).radiance.xyz) * sum;
     return total;
 }
@@ -93,7 +100,7 @@ real3 direct_light(Matte matte, uint sample_index, uint seed, inout Tally tally)
             sum = sum + point_light_radiance(matte, i, tally);
     if (QUAD_LIGHTS > 0)
         for (int i = 0; i < QUAD_LIGHTS; ++i)
-            sum = sum + quad_radiance(matte, i, sample_index * uint(LIGHT_SAMPLES), seed + uint(i), tally);
+            sum = sum + quad_radiance(matte, i, sample_index, seed + uint(i), tally);
     return sum;
 }
 
@@ -127,8 +134,9 @@ bool light_on(Matte matte, uint sample_index, uint seed, inout Lighting light, i
             light.sum = out_of_steps ? light.sum : sum;
         } else if (light.next < LIGHT_POINTS) {
             int i = point / LIGHT_SAMPLES, k = point % LIGHT_SAMPLES;
-            exact real quad_sum = light.quad_sum + quad_point(matte, i, sequence_of(seed + uint(i)),
-                                                              sample_index * uint(LIGHT_SAMPLES), k, tally);
+            Sequence sequence = sequence_of(seed + uint(i));
+            uint first = first_point(sequence, sample_index);
+            exact real quad_sum = light.quad_sum + quad_point(matte, i, sequence, first, k, tally);
             exact real3 sum = light.sum + real3(get_quad_light(i).radiance.xyz) * quad_sum;
             bool last = k + 1 == LIGHT_SAMPLES;
             light.sum = last && !out_of_steps ? sum : light.sum;

@@ -51,8 +51,10 @@ uvec2 place_of(uvec2 first, uint column)
 void begin_path(out Path path, uvec2 position, Pixel pixel)
 {
     real sample_x = real(0.5), sample_y = real(0.5);
-    if (SAMPLES > 1)
-        sequence_point(sequence_of(pixel.seed), pixel.sample_index, sample_x, sample_y);
+    if (SAMPLES > 1) {
+        Sequence sequence = sequence_of(pixel.seed);
+        sequence_point(sequence, shuffled(sequence, pixel.sample_index), sample_x, sample_y);
+    }
     exact real x = real(2 * int(position.x) - int(image_size.x)) + real(2) * sample_x;
     exact real y = real(2 * int(position.y) - int(image_size.y)) + real(2) * sample_y;
     exact real3 through =

@@ -179,7 +179,7 @@ void call_quad_light(quad_light_input i, out quad_light_output o)
                         vec4_of(i.light.area_normal), vec4_of(i.light.radiance));
     Tally tally = Tally(0u, 0u, 0u);
     o.radiance =
-        vector_of(quad_radiance(matte_of(i.matte), 0, uint(i.pixel_sample * LIGHT_SAMPLES), uint(i.seed), tally));
+        vector_of(quad_radiance(matte_of(i.matte), 0, uint(i.pixel_sample), uint(i.seed), tally));
     o.shadow_rays = int(tally.shadow_rays);
 }
 

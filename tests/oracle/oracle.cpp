@@ -228,9 +228,9 @@ uint32_t second_dimension(uint32_t index)
 
 Vector point_on(const PackedQuadLight &light, uint32_t seed, uint32_t index)
 {
-    const uint32_t shuffle = hash(seed), shuffled = scramble(reverse(index), shuffle);
-    const double u = fraction(scramble(shuffled, hash(shuffle + 1)));
-    const double v = fraction(scramble(reverse(second_dimension(shuffled)), hash(shuffle + 2)));
+    const uint32_t shuffle = hash(seed);
+    const double u = fraction(scramble(index, hash(shuffle + 1)));
+    const double v = fraction(scramble(reverse(second_dimension(index)), hash(shuffle + 2)));
     return vector_of(light.corner) + Ball(u) * vector_of(light.edge_u) + Ball(v) * vector_of(light.edge_v);
 }
 
@@ -248,7 +248,10 @@ Vector direct_light(const Scene &scene, const Ray &ray, const Hit &hit)
         for (int k = 0; k < packed.light_samples; ++k) {
             const PackedQuadLight &light = packed.quad_lights[i];
             const Vector area_normal = vector_of(light.area_normal);
-            const Vector point = point_on(light, seed + (uint32_t)i, (uint32_t)k);
+            uint32_t first = scramble(0, hash(seed + (uint32_t)i)); /* of a block of at least so many points */
+            for (int size = 1; size < packed.light_samples; size *= 2)
+                first *= 2;
+            const Vector point = point_on(light, seed + (uint32_t)i, first + (uint32_t)k);
             sum = sum + light_from(scene, ray, hit, point, vector_of(light.radiance), &area_normal);
         }
     return sum;
