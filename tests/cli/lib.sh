@@ -21,7 +21,7 @@ expect() {
     shift
     "$@" >out 2>err
     status=$?
-    [ "$SANITIZE" != ON ] || sed -i '/external symbolizer/d' err # of which clang 19 says that it is not installed
+    [ "${SANITIZE-}" != ON ] || sed -i '/external symbolizer/d' err # of which clang 19 says that it is not installed
     [ $status -eq "$expected" ] || fail "exit status $status, expected $expected: $*"
 }
 
