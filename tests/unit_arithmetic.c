@@ -7,8 +7,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "base/float_bits.h"
 #include "far_corrected.h"
 #include "inexact.h"
 #include "native.h"
@@ -21,20 +21,6 @@ enum { BATCH = 1 << 20, BATCHES = 4, GROUP = 64 };
 struct words {
     uint32_t a, b;
 };
-
-static uint32_t bits_of(float x)
-{
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
-static float float_of(uint32_t bits)
-{
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
 
 /* Pairs of these come first: zeros, denormals, powers of two, mantissas all ones, infinity, NaN; twice, the
  * second time negative. */
@@ -61,7 +47,7 @@ static void fill(uint64_t seed, int batch, struct words *operands)
     uint64_t state = seed + (uint64_t)batch;
     hostile_operands(state, hostile, BATCH);
     for (size_t i = 0; i < BATCH; ++i)
-        operands[i] = i / 8 % 2 ? (struct words){bits_of(hostile[i].a), bits_of(hostile[i].b)}
+        operands[i] = i / 8 % 2 ? (struct words){float_bits(hostile[i].a), float_bits(hostile[i].b)}
                                 : (struct words){random_word(&state), random_word(&state)};
     free(hostile);
     if (batch == 0)
@@ -72,8 +58,8 @@ static void fill(uint64_t seed, int batch, struct words *operands)
 static bool right(uint32_t result, float expected)
 {
     if (isnan(expected))
-        return isnan(float_of(result));
-    return result == bits_of(expected);
+        return isnan(float_of_bits(result));
+    return result == float_bits(expected);
 }
 
 struct tally {
@@ -86,7 +72,7 @@ static void judge(const struct words *operands, const struct words *results, boo
                   struct tally *tally)
 {
     for (size_t i = 0; i < BATCH; ++i) {
-        const float a = float_of(operands[i].a), b = float_of(operands[i].b), quotient = a / b,
+        const float a = float_of_bits(operands[i].a), b = float_of_bits(operands[i].b), quotient = a / b,
                     root = sqrtf(a);
         bool normal_a = fpclassify(a) == FP_NORMAL;
         if (!right(results[i].a, quotient) &&
@@ -94,11 +80,11 @@ static void judge(const struct words *operands, const struct words *results, boo
              (normal_a && fpclassify(b) == FP_NORMAL && isfinite(quotient) && fabsf(quotient) > FLT_MIN)) &&
             ++tally->wrong_quotients < 5 && print)
             print_error("0x%08" PRIx32 " / 0x%08" PRIx32 " is 0x%08" PRIx32 " instead of 0x%08" PRIx32 "\n",
-                        operands[i].a, operands[i].b, results[i].a, bits_of(quotient));
+                        operands[i].a, operands[i].b, results[i].a, float_bits(quotient));
         if (!right(results[i].b, root) && (!normal || (normal_a && a > 0)) && ++tally->wrong_roots < 5 &&
             print)
             print_error("sqrt 0x%08" PRIx32 " is 0x%08" PRIx32 " instead of 0x%08" PRIx32 "\n", operands[i].a,
-                        results[i].b, bits_of(root));
+                        results[i].b, float_bits(root));
     }
 }
 

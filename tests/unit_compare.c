@@ -5,16 +5,10 @@
 #include <png.h>
 #include <string.h>
 
+#include "base/float_bits.h"
 #include "check/compare.h"
 #include "check/heatmap.h"
 #include "test_folder.h"
-
-static float float_of(uint32_t bits)
-{
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
 
 static struct image picture(unsigned width, unsigned height)
 {
@@ -37,7 +31,7 @@ static struct comparison compare_values(float a, float b, const struct tolerance
 static void test_values(void **state)
 {
     (void)state;
-    const float nan = float_of(0x7fc00000), other_nan = float_of(0xffc00001);
+    const float nan = float_of_bits(0x7fc00000), other_nan = float_of_bits(0xffc00001);
     const struct tolerance none = {0.0, 0.0}, wide = {1e30, 1e30}, absolute = {0.25, 0.0},
                            relative = {0.0, 0.25};
     const struct {
@@ -47,7 +41,7 @@ static void test_values(void **state)
         double max_error;
     } cases[] = {
         {0.5f, 0.5f, NULL, 0, 0, 0.0},
-        {0.5f, float_of(0x3f000001), NULL, 1, 1, 0x1p-24},
+        {0.5f, float_of_bits(0x3f000001), NULL, 1, 1, 0x1p-24},
         {-0.0f, 0.0f, NULL, 1, 1, 0.0},
         {-0.0f, 0.0f, &none, 1, 0, 0.0},
         {nan, nan, NULL, 0, 0, 0.0},

@@ -2,23 +2,9 @@
 #include "cmocka_test.h"
 
 #include <math.h>
-#include <string.h>
 
+#include "base/float_bits.h"
 #include "image/transfer.h"
-
-static uint32_t bits_of(float value)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-static float float_of(uint32_t bits)
-{
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
 
 static uint8_t formula(enum transfer transfer, float linear)
 {
@@ -40,7 +26,7 @@ static void check_range(enum transfer transfer, const struct transfer_encoder *e
                         uint32_t last)
 {
     for (uint32_t bits = first; bits <= last; ++bits) {
-        float linear = float_of(bits);
+        float linear = float_of_bits(bits);
         if (encode(encoder, linear) != formula(transfer, linear))
             fail_msg("%a (%.9g): code %d, the formula says %d", (double)linear, (double)linear,
                      encode(encoder, linear), formula(transfer, linear));
@@ -55,19 +41,19 @@ static void check_thresholds(enum transfer transfer)
     transfer_encoder_init(transfer, &encoder);
     uint32_t previous = 0;
     for (int code = 1; code <= 255; code++) {
-        uint32_t below = previous, above = bits_of(1.0f);
+        uint32_t below = previous, above = float_bits(1.0f);
         while (above - below > 1) {
             uint32_t middle = below + (above - below) / 2;
-            if (formula(transfer, float_of(middle)) >= code)
+            if (formula(transfer, float_of_bits(middle)) >= code)
                 above = middle;
             else
                 below = middle;
         }
-        assert_int_equal(formula(transfer, float_of(above)), code);
+        assert_int_equal(formula(transfer, float_of_bits(above)), code);
         check_range(transfer, &encoder, above - 1000, above + 1000);
         previous = above;
     }
-    for (uint32_t edge = 0x10000; edge <= bits_of(4.0f); edge += 0x10000)
+    for (uint32_t edge = 0x10000; edge <= float_bits(4.0f); edge += 0x10000)
         check_range(transfer, &encoder, edge - 2, edge + 2);
 }
 
@@ -93,7 +79,7 @@ static void test_no_numbers(void **state)
         transfer_encoder_init((enum transfer)transfer, &encoder);
         for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
             assert_int_equal(encode(&encoder, cases[i].linear), cases[i].code);
-        assert_int_equal(encode(&encoder, float_of(0x7f800001)), 0); /* a signalling NaN */
+        assert_int_equal(encode(&encoder, float_of_bits(0x7f800001)), 0); /* a signalling NaN */
     }
 }
 

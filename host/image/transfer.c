@@ -1,23 +1,10 @@
 #include "image/transfer.h"
 
 #include <math.h>
-#include <string.h>
+
+#include "base/float_bits.h"
 
 static const float lowest = 0x1p-13f;
-
-static uint32_t float_bits(float value)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-static float float_of_bits(uint32_t bits)
-{
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
 
 /* By the transfer function of IEC 61966-2-1:1999, section 5.2. */
 static unsigned nearest_code(enum transfer transfer, float linear)

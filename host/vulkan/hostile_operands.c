@@ -1,6 +1,6 @@
 #include "vulkan/probe.h"
 
-#include <string.h>
+#include "base/float_bits.h"
 
 enum { LEAST_EXPONENT = 1, BIAS = 127, GREATEST_EXPONENT = 254 };
 
@@ -15,10 +15,7 @@ uint32_t random_word(uint64_t *state)
 /* mantissa: 24 bits, the first of which is implied; exponent: biased. */
 static float assemble(uint32_t mantissa, uint32_t exponent)
 {
-    uint32_t bits = exponent << 23 | (mantissa & 0x7fffff);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    return float_of_bits(exponent << 23 | (mantissa & 0x7fffff));
 }
 
 static uint32_t random_between(uint64_t *state, uint32_t least, uint32_t greatest)
