@@ -6,8 +6,9 @@
 #include "vulkan/probe.h"
 
 enum { SCENE_BINDINGS = 8, INPUTS = SCENE_BINDINGS, OUTPUTS, BINDINGS };
-enum { GROUP = 64 };         /* invocations, as in functions.comp */
-enum { SCENE_BYTES = 1024 }; /* more than one view, or three elements of any kind */
+enum { GROUP = 64 };              /* invocations, as in functions.comp */
+enum { CORRECTED_DIVISION = 32 }; /* of arithmetic.glsl */
+enum { SCENE_BYTES = 1024 };      /* more than one view, or three elements of any kind */
 
 enum status device_create(struct vulkan_context *context, bool corrected, struct device *device)
 {
@@ -15,6 +16,7 @@ enum status device_create(struct vulkan_context *context, bool corrected, struct
     *device = (struct device){.context = context};
     enum status status = probe_require_exact(context);
     device->corrected = corrected || needs_correction(&context->arithmetic);
+    device->corrected_division = corrected || !context->arithmetic.division_exact;
     if (status == STATUS_DONE)
         status = vulkan_buffer_create(context, "scene", SCENE_BYTES, BUFFER_UPLOAD, &device->scene);
     if (status == STATUS_DONE)
@@ -74,6 +76,7 @@ enum status device_load(struct device *device, const struct function_test *test)
     uint32_t count = 0;
     for (int i = 0; i < COMMON_CONSTANTS; ++i)
         set_constant(constants, &count, common_constants[i]);
+    set_constant(constants, &count, (struct pass_constant){CORRECTED_DIVISION, device->corrected_division});
     for (int i = 0; i < MOST_CONSTANTS && test->constants[i].id != 0; ++i)
         set_constant(constants, &count, test->constants[i]);
     VkDescriptorType bindings[BINDINGS];

@@ -14,7 +14,8 @@ enum { BATCH = 1 << 16 }; /* cases a dispatch */
  * and reads its outputs in place. */
 struct device {
     struct vulkan_context *context;
-    bool corrected;             /* division and root */
+    bool corrected;             /* the root, and division if that is */
+    bool corrected_division;
     struct vulkan_buffer scene; /* functions.comp has the scene's bindings, and never reads them */
     struct vulkan_buffer inputs, outputs;
     struct vulkan_pass pass; /* of the function that is loaded */
