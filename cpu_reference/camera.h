@@ -16,8 +16,9 @@ static inline struct ray camera_ray(const struct packed_scene *scene, int x, int
 {
     const struct PackedView *view = &scene->view;
     real sample_x = (real)0.5, sample_y = (real)0.5;
+    const uint32_t seed = pixel_seed(x, y);
     if (scene->samples > 1)
-        sobol_point(pixel_seed(x, y), sobol_shuffle(pixel_seed(x, y), k), &sample_x, &sample_y);
+        sobol_point(seed, sobol_shuffle(seed, k), &sample_x, &sample_y);
     real right = (real)(2 * x - scene->width) + 2 * sample_x;
     real down = (real)(2 * y - scene->height) + 2 * sample_y;
     struct vec3 through = add(add(vector_of(view->forward), scale(right, vector_of(view->half_pixel_right))),

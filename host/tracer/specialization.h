@@ -4,8 +4,8 @@
 #include "tracer/dispatch_size.h"
 #include "tracer/interface.h"
 
-/* The values of the shader's constants 0, 1, 2...; shaders/scene.glsl and
- * arithmetic.glsl say what they mean. */
+/* The values of the shader's constants 0, 1, 2...; shaders/scene.glsl and arithmetic.glsl say what they
+ * mean. */
 struct specialization {
     uint32_t group_width, group_height;
     int32_t spheres, planes, point_lights, quad_lights, max_bounces, samples, light_samples;

@@ -244,16 +244,17 @@ Vector direct_light(const Scene &scene, const Ray &ray, const Hit &hit)
         sum =
             sum + light_from(scene, ray, hit, vector_of(light.position), vector_of(light.intensity), nullptr);
     }
-    for (int i = 0; i < packed.quad_light_count; ++i)
+    for (int i = 0; i < packed.quad_light_count; ++i) {
+        const PackedQuadLight &light = packed.quad_lights[i];
+        const Vector area_normal = vector_of(light.area_normal);
+        uint32_t first = scramble(0, hash(seed + (uint32_t)i)); /* of a block of at least so many points */
+        for (int size = 1; size < packed.light_samples; size *= 2)
+            first *= 2;
         for (int k = 0; k < packed.light_samples; ++k) {
-            const PackedQuadLight &light = packed.quad_lights[i];
-            const Vector area_normal = vector_of(light.area_normal);
-            uint32_t first = scramble(0, hash(seed + (uint32_t)i)); /* of a block of at least so many points */
-            for (int size = 1; size < packed.light_samples; size *= 2)
-                first *= 2;
             const Vector point = point_on(light, seed + (uint32_t)i, first + (uint32_t)k);
             sum = sum + light_from(scene, ray, hit, point, vector_of(light.radiance), &area_normal);
         }
+    }
     return sum;
 }
 
