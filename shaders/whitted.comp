@@ -184,8 +184,7 @@ uint render_primary_rays(uvec2 first, uint columns)
     uint later = 0u;
     for (uint column = 0u; column < columns; ++column) {
         uvec2 in_tile = place_of(first, column);
-        bool inside = all(lessThan(in_tile, tile_size)), ends = true;
-        uint place = inside ? in_tile.y * tile_size.x + in_tile.x : 0u;
+        bool ends = true;
         Pixel pixel;
         Lighting light;
         begin_pixel(pixel, tile_origin + in_tile);
@@ -203,9 +202,9 @@ uint render_primary_rays(uvec2 first, uint columns)
                 end_path(pixel, light, path, hit, point, normal);
             end_sample(pixel);
         }
-        if (inside && ends)
-            store(place, pixel);
-        later |= inside && !ends ? 1u << column : 0u;
+        if (ends)
+            store(in_tile.y * tile_size.x + in_tile.x, pixel);
+        later |= ends ? 0u : 1u << column;
     }
     return later;
 }
@@ -274,10 +273,11 @@ void turn(inout Work work, uvec2 first)
     }
 }
 
+// How many of the columns lie in the tile.
 uint columns_inside(uvec2 first)
 {
     uint columns = all(lessThan(first, tile_size)) ? (tile_size.x - 1u - first.x) / gl_WorkGroupSize.x + 1u : 0u;
-    return columns < COLUMNS ? (1u << columns) - 1u : ~0u >> (32u - COLUMNS);
+    return min(columns, COLUMNS);
 }
 
 void main()
@@ -296,10 +296,11 @@ void main()
     uint group_y = gl_WorkGroupID.y % share * tile.threads + gl_WorkGroupID.y / share;
     uvec2 first = uvec2(gl_WorkGroupID.x * COLUMNS, group_y) * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;
     Work work = no_work();
+    uint columns = columns_inside(first);
     if (PRIMARY_RAYS_FIRST)
-        work.later = render_primary_rays(first, goes_on ? 0u : COLUMNS);
+        work.later = render_primary_rays(first, goes_on ? 0u : columns);
     else
-        work.later = columns_inside(first);
+        work.later = columns < 32u ? (1u << columns) - 1u : ~0u;
     if (PRIMARY_RAYS_FIRST && !SECONDARY_RAYS)
         return;
     if (goes_on)

@@ -5,8 +5,8 @@
 #include "scene/body.h"
 
 /* Turns of loops, those over objects and lights included, that an invocation may make with primary rays, and
- * again with the others. Lavapipe ends all loops of an invocation after 65535 turns, without a word; a
- * graphics card's watchdog bites after some seconds. */
+ * again with the others, which may also have what the former leave. Lavapipe ends all loops of an invocation
+ * after 65535 turns, without a word; a graphics card's watchdog bites after some seconds. */
 enum { MOST_TURNS = 30000 };
 
 enum { REGISTERS = 8 }; /* of path.glsl: a deeper stack lies in a buffer */
@@ -77,10 +77,14 @@ static void choose_turns(const struct packed_scene *scene, bool primary_first, s
     const uint64_t samples = (uint64_t)scene->samples;
     size->primary_rays_first = primary_first && samples * (ray + points * point) <= MOST_TURNS;
     size->light_points_a_turn = (uint32_t)points_a_turn;
-    size->most_turns = (uint32_t)at_least_1(MOST_TURNS / turn);
-    if (size->primary_rays_first)
+    uint64_t most_turns = MOST_TURNS;
+    if (size->primary_rays_first) {
         size->columns = (uint32_t)smaller(size->columns, MOST_TURNS / (samples * turn));
-    const uint64_t turns = most_rays(scene) * (points / points_a_turn + 1) * samples;
+        most_turns += MOST_TURNS - size->columns * samples * turn;
+    }
+    size->most_turns = (uint32_t)at_least_1(most_turns / turn);
+    const uint64_t turns_a_ray = at_least_1((points + points_a_turn - 1) / points_a_turn);
+    const uint64_t turns = most_rays(scene) * turns_a_ray * samples;
     while (size->columns > 4 && turns * size->columns > size->most_turns &&
            turns * size->columns / 4 <= size->most_turns)
         size->columns /= 2; /* which costs less than to go on in the next dispatch */
@@ -148,7 +152,7 @@ struct dispatch_size dispatch_size_choose(const struct vulkan_context *context,
     if (size.on_processor) {
         size.group_width = context->subgroup_size >= 16 ? 16 : 8;
         size.group_height = 1;
-        size.columns = 16;
+        size.columns = 32;
         size.threads = (uint32_t)sysconf(_SC_NPROCESSORS_ONLN);
     }
     if (scene->hierarchy)
