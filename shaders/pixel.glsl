@@ -17,6 +17,7 @@ struct Pixel {
     real waiting; // roots of the weights on the stack, summed
     real charges; // of the samples before
     uint seed;
+    Sequence sequence; // of its samples' places
     uint sample_index;
     Tally tally;
 };
@@ -89,9 +90,10 @@ void begin_sample(inout Pixel pixel)
     pixel.waiting = real(0);
 }
 
-uint pixel_seed(uvec2 position)
+void seed_pixel(inout Pixel pixel, uvec2 position)
 {
-    return SAMPLES > 1 || QUAD_LIGHTS > 0 ? hash(hash(position.x) + position.y) : 0u;
+    pixel.seed = SAMPLES > 1 || QUAD_LIGHTS > 0 ? hash(hash(position.x) + position.y) : 0u;
+    pixel.sequence = sequence_of(pixel.seed);
 }
 
 void begin_pixel(out Pixel pixel, uvec2 position)
@@ -100,7 +102,7 @@ void begin_pixel(out Pixel pixel, uvec2 position)
     pixel.charges = real(0);
     pixel.sample_index = 0u;
     pixel.tally = Tally(0u, 0u, 0u);
-    pixel.seed = pixel_seed(position);
+    seed_pixel(pixel, position);
     begin_sample(pixel);
 }
 

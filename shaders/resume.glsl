@@ -7,7 +7,7 @@ Work no_work()
 {
     const real3 zero = real3(0);
     Path path = Path(Ray(zero, zero, -1, false), real(0), 0, 0u);
-    Pixel pixel = Pixel(zero, zero, zero, real(0), real(0), real(0), real(0), 0u, 0u, Tally(0u, 0u, 0u));
+    Pixel pixel = Pixel(zero, zero, zero, real(0), real(0), real(0), real(0), 0u, Sequence(0u, 0u, 0u), 0u, Tally(0u, 0u, 0u));
     return Work(0u, 0u, false, false, 0, path, pixel, Lighting(0u, zero, real(0)));
 }
 
@@ -105,5 +105,5 @@ void load(inout Work work, uvec2 first)
     }
     work.pending = below;
     load_path(below, work.path);
-    work.pixel.seed = pixel_seed(tile_origin + place_of(first, work.column));
+    seed_pixel(work.pixel, tile_origin + place_of(first, work.column));
 }

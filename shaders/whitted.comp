@@ -51,10 +51,8 @@ uvec2 place_of(uvec2 first, uint column)
 void begin_path(out Path path, uvec2 position, Pixel pixel)
 {
     real sample_x = real(0.5), sample_y = real(0.5);
-    if (SAMPLES > 1) {
-        Sequence sequence = sequence_of(pixel.seed);
-        sequence_point(sequence, shuffled(sequence, pixel.sample_index), sample_x, sample_y);
-    }
+    if (SAMPLES > 1)
+        sequence_point(pixel.sequence, shuffled(pixel.sequence, pixel.sample_index), sample_x, sample_y);
     exact real x = real(2 * int(position.x) - int(image_size.x)) + real(2) * sample_x;
     exact real y = real(2 * int(position.y) - int(image_size.y)) + real(2) * sample_y;
     exact real3 through =
@@ -188,7 +186,7 @@ uint render_primary_rays(uvec2 first, uint columns)
         Pixel pixel;
         Lighting light;
         begin_pixel(pixel, tile_origin + in_tile);
-        for (int k = 0; k < SAMPLES; ++k) {
+        for (;;) { // lavapipe runs the body of any other loop once more, masked
             Path path;
             Hit hit;
             real3 point, normal;
@@ -200,7 +198,8 @@ uint render_primary_rays(uvec2 first, uint columns)
                 cut_off(pixel, path);
             else
                 end_path(pixel, light, path, hit, point, normal);
-            end_sample(pixel);
+            if (end_sample(pixel))
+                break;
         }
         if (ends)
             store(in_tile.y * tile_size.x + in_tile.x, pixel);
