@@ -16,9 +16,8 @@ struct Path {
 const bool STACK_IN_REGISTERS = MAX_BOUNCES <= 8;
 const int STACK_ROOM = GLASS && MAX_BOUNCES > 0 && STACK_IN_REGISTERS ? MAX_BOUNCES : 1;
 real4 stack_origin[STACK_ROOM]; // and weight
-real3 stack_direction[STACK_ROOM];
-int stack_state[STACK_ROOM], stack_bounces[STACK_ROOM];
-uint stack_branch[STACK_ROOM];
+real4 stack_direction[STACK_ROOM]; // and state
+uint stack_bounces[STACK_ROOM], stack_branch[STACK_ROOM];
 
 // What an invocation keeps in memory, slot after slot; a slot of all invocations lies together. The first are for its work,
 // see resume.glsl, the others for the stack.
@@ -30,21 +29,41 @@ int saved_place(int slot)
     return int((uint(slot) * all.y + gl_GlobalInvocationID.y) * all.x + gl_GlobalInvocationID.x);
 }
 
-// With a hierarchy surfaces need so many bits that bounces have a word of their own.
-int path_state(Path path)
+// A word of up to 29 bits as a real number, which is a normal one: denormal ones drivers may flush.
+real real_of(uint word)
 {
-    int leaves = path.ray.surface << 1 | int(path.ray.inward);
-    return HIERARCHY ? leaves : leaves << 10 | path.bounces;
+#ifdef DOUBLE
+    return real(word);
+#else
+    return uintBitsToFloat(word | 0x40000000u);
+#endif
 }
 
-void set_path(inout Path path, real4 origin_weight, real3 direction, int state, int bounces, uint branch)
+uint word_of(real value)
 {
+#ifdef DOUBLE
+    return uint(value);
+#else
+    return floatBitsToUint(value) & 0x3fffffffu;
+#endif
+}
+
+// With a hierarchy surfaces need so many bits that bounces have a word of their own.
+real path_state(Path path)
+{
+    uint leaves = uint(path.ray.surface + 1) << 1 | uint(path.ray.inward);
+    return real_of(HIERARCHY ? leaves : leaves << 10 | uint(path.bounces));
+}
+
+void set_path(inout Path path, real4 origin_weight, real4 direction_state, uint bounces, uint branch)
+{
+    uint state = word_of(direction_state.w), leaves = HIERARCHY ? state : state >> 10;
     path.ray.origin = origin_weight.xyz;
-    path.ray.direction = direction;
-    path.ray.surface = HIERARCHY ? state >> 1 : state >> 11;
-    path.ray.inward = ((HIERARCHY ? state : state >> 10) & 1) != 0;
+    path.ray.direction = direction_state.xyz;
+    path.ray.surface = int(leaves >> 1) - 1;
+    path.ray.inward = (leaves & 1u) != 0u;
     path.weight = origin_weight.w;
-    path.bounces = HIERARCHY ? bounces : state & 1023;
+    path.bounces = int(HIERARCHY ? bounces : state & 1023u);
     path.branch = branch;
 }
 
@@ -52,22 +71,20 @@ void set_path(inout Path path, real4 origin_weight, real3 direction, int state, 
 void save_path(int number, Path path)
 {
     saved_reals[saved_place(WORK_REALS + 2 * number)] = real4(path.ray.origin, path.weight);
-    saved_reals[saved_place(WORK_REALS + 2 * number + 1)] = real4(path.ray.direction, real(0));
-    saved_words[saved_place(WORK_WORDS + 3 * number)] = uint(path_state(path));
+    saved_reals[saved_place(WORK_REALS + 2 * number + 1)] = real4(path.ray.direction, path_state(path));
     if (HIERARCHY)
-        saved_words[saved_place(WORK_WORDS + 3 * number + 1)] = uint(path.bounces);
+        saved_words[saved_place(WORK_WORDS + 2 * number)] = uint(path.bounces);
     if (LIGHTS_TELL_BRANCHES)
-        saved_words[saved_place(WORK_WORDS + 3 * number + 2)] = path.branch;
+        saved_words[saved_place(WORK_WORDS + 2 * number + 1)] = path.branch;
 }
 
 void load_path(int number, inout Path path)
 {
     real4 origin_weight = saved_reals[saved_place(WORK_REALS + 2 * number)];
-    real3 direction = saved_reals[saved_place(WORK_REALS + 2 * number + 1)].xyz;
-    int state = int(saved_words[saved_place(WORK_WORDS + 3 * number)]);
-    int bounces = HIERARCHY ? int(saved_words[saved_place(WORK_WORDS + 3 * number + 1)]) : 0;
-    uint branch = LIGHTS_TELL_BRANCHES ? saved_words[saved_place(WORK_WORDS + 3 * number + 2)] : 0u;
-    set_path(path, origin_weight, direction, state, bounces, branch);
+    real4 direction_state = saved_reals[saved_place(WORK_REALS + 2 * number + 1)];
+    uint bounces = HIERARCHY ? saved_words[saved_place(WORK_WORDS + 2 * number)] : 0u;
+    uint branch = LIGHTS_TELL_BRANCHES ? saved_words[saved_place(WORK_WORDS + 2 * number + 1)] : 0u;
+    set_path(path, origin_weight, direction_state, bounces, branch);
 }
 
 void push(Path path, inout int pending)
@@ -77,9 +94,8 @@ void push(Path path, inout int pending)
     [[unroll]] for (int i = 0; i < STACK_ROOM; ++i)
         if (STACK_IN_REGISTERS && i == pending) {
             stack_origin[i] = real4(path.ray.origin, path.weight);
-            stack_direction[i] = path.ray.direction;
-            stack_state[i] = path_state(path);
-            stack_bounces[i] = path.bounces;
+            stack_direction[i] = real4(path.ray.direction, path_state(path));
+            stack_bounces[i] = uint(path.bounces);
             stack_branch[i] = path.branch;
         }
     ++pending;
@@ -92,5 +108,5 @@ void pop(inout Path path, inout int pending)
         load_path(pending, path);
     [[unroll]] for (int i = 0; i < STACK_ROOM; ++i)
         if (STACK_IN_REGISTERS && i == pending)
-            set_path(path, stack_origin[i], stack_direction[i], stack_state[i], stack_bounces[i], stack_branch[i]);
+            set_path(path, stack_origin[i], stack_direction[i], stack_bounces[i], stack_branch[i]);
 }

@@ -99,7 +99,7 @@ static void choose_memory(const struct packed_scene *scene, struct dispatch_size
         return;
     const uint32_t paths = 1 + (glass ? (uint32_t)scene->max_bounces : 0); /* under way, and on the stack */
     size->saved_reals = WORK_REALS + 2 * paths;
-    size->saved_words = WORK_WORDS + 3 * paths;
+    size->saved_words = WORK_WORDS + 2 * paths;
 }
 
 /* For the slots of a dispatch's invocations, of which two may be under way beside all that others have. */
