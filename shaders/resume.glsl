@@ -80,12 +80,14 @@ void save(Work work)
     if (is_done(work))
         return;
     atomicAdd(unfinished, uint(bitCount(work.later)) + uint(work.busy));
-    save_path(work.pending, work.path);
-    while (GLASS && STACK_IN_REGISTERS && work.pending > 0) { // lavapipe: a loop, lest it does all under a mask
-        pop(work.path, work.pending);
-        save_path(work.pending, work.path);
-    }
     exchange(true, work);
+    PackedPath packed;
+    pack(work.path, packed);
+    save_path(work.pending, packed);
+    while (GLASS && work.pending > sunk) { // lavapipe: a loop, lest it does all under a mask
+        --work.pending;
+        save_path(work.pending, in_registers(work.pending));
+    }
 }
 
 void load(inout Work work, uvec2 first)
@@ -99,11 +101,14 @@ void load(inout Work work, uvec2 first)
     if (is_done(work))
         return;
     exchange(false, work);
-    for (int i = 0; GLASS && STACK_IN_REGISTERS && i < below; ++i) {
-        load_path(i, work.path);
-        push(work.path, work.pending);
+    PackedPath packed;
+    for (int i = 0; GLASS && !STACK_SINKS && i < below; ++i) {
+        load_path(i, packed);
+        put_in_registers(i, packed);
     }
+    sunk = STACK_SINKS ? below : 0;
     work.pending = below;
-    load_path(below, work.path);
+    load_path(below, packed);
+    unpack(packed, work.path);
     seed_pixel(work.pixel, tile_origin + place_of(first, work.column));
 }
