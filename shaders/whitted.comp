@@ -83,13 +83,13 @@ Matte matte_of(Path path, Hit hit, real3 point, real3 normal)
 
 // Adds what a ray sees that ends on a matte surface or nowhere. Whether its light takes another turn. Each branch draws
 // light samples of its own, the same whichever others are traced.
-bool end_path(inout Pixel pixel, inout Lighting light, Path path, Hit hit, real3 point, real3 normal)
+bool end_path(bool at_once, inout Pixel pixel, inout Lighting light, Path path, Hit hit, real3 point, real3 normal)
 {
     exact real3 seen = real3(hoisted_view.background.xyz);
     if (hit.surface >= 0) {
         Matte matte = matte_of(path, hit, point, normal);
         uint seed = hash(pixel.seed + path.branch * uint(QUAD_LIGHTS));
-        if (LIGHTS_TAKE_TURNS) {
+        if (LIGHTS_TAKE_TURNS && !at_once) {
             if (light_on(matte, pixel.sample_index, seed, light, pixel.tally))
                 return true;
             seen = real3(hit.parameters.xyz) * light.sum;
@@ -197,7 +197,7 @@ uint render_primary_rays(uvec2 first, uint columns)
             if (bounces(hit))
                 cut_off(pixel, path);
             else
-                end_path(pixel, light, path, hit, point, normal);
+                end_path(true, pixel, light, path, hit, point, normal);
             if (end_sample(pixel))
                 break;
         }
@@ -253,7 +253,7 @@ void turn(inout Work work, uvec2 first)
         }
     } while (HIERARCHY && goes_on);
     if (!bounces(hit))
-        lights_on = end_path(work.pixel, work.light, work.path, hit, point, normal);
+        lights_on = end_path(false, work.pixel, work.light, work.path, hit, point, normal);
     if (GLASS && !goes_on && !lights_on && work.pending > 0) {
         pop(work.path, work.pending);
         exact real waiting = work.pixel.waiting - root_of(work.path.weight);
