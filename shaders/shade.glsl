@@ -47,13 +47,18 @@ real point_irradiance(Matte matte, real3 light, out real3 to_light, inout Tally 
     return irradiance;
 }
 
-// Point k of a quad light: its irradiance times the area that the point sees.
-real quad_point(Matte matte, int i, Sequence sequence, uint first, int k, inout Tally tally)
+real3 quad_point(int i, Sequence sequence, uint index)
 {
     real u, v;
-    sequence_point(sequence, first + uint(k), u, v);
-    exact real3 light = real3(get_quad_light(i).corner.xyz) + u * real3(get_quad_light(i).edge_u.xyz) +
+    sequence_point(sequence, index, u, v);
+    exact real3 point = real3(get_quad_light(i).corner.xyz) + u * real3(get_quad_light(i).edge_u.xyz) +
                         v * real3(get_quad_light(i).edge_v.xyz);
+    return point;
+}
+
+// What a point of a quad light, its k-th, gives: its irradiance times the area that the matte point sees.
+real quad_irradiance(Matte matte, int i, real3 light, int k, inout Tally tally)
+{
     real3 to_light;
     real irradiance = point_irradiance(matte, light, to_light, tally);
     exact real projected_area = dot3(real3(get_quad_light(i).area_normal.xyz), to_light);
@@ -75,8 +80,13 @@ real3 quad_radiance(Matte matte, int i, uint sample_index, uint seed, inout Tall
     Sequence sequence = sequence_of(seed);
     uint first = first_point(sequence, sample_index);
     exact real sum = real(0);
-    for (int k = 0; k < LIGHT_SAMPLES; ++k)
-        sum = sum + quad_point(matte, i, sequence, first, k, tally);
+    real3 light = quad_point(i, sequence, first);
+    for (int k = 0; k < LIGHT_SAMPLES; ++k) {
+        // found while the processor waits for this one's root
+        real3 next = quad_point(i, sequence, first + uint(k) + 1u);
+        sum = sum + quad_irradiance(matte, i, light, k, tally);
+        light = next;
+    }
     exact real3 total = real3(get_quad_light(i).radiance.xyz) * sum;
     return total;
 }
@@ -136,7 +146,7 @@ bool light_on(Matte matte, uint sample_index, uint seed, inout Lighting light, i
             int i = point / LIGHT_SAMPLES, k = point % LIGHT_SAMPLES;
             Sequence sequence = sequence_of(seed + uint(i));
             uint first = first_point(sequence, sample_index);
-            exact real quad_sum = light.quad_sum + quad_point(matte, i, sequence, first, k, tally);
+            exact real quad_sum = light.quad_sum + quad_irradiance(matte, i, quad_point(i, sequence, first + uint(k)), k, tally);
             exact real3 sum = light.sum + real3(get_quad_light(i).radiance.xyz) * quad_sum;
             bool last = k + 1 == LIGHT_SAMPLES;
             light.sum = last && !out_of_steps ? sum : light.sum;
