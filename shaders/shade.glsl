@@ -146,7 +146,8 @@ bool light_on(Matte matte, uint sample_index, uint seed, inout Lighting light, i
             int i = point / LIGHT_SAMPLES, k = point % LIGHT_SAMPLES;
             Sequence sequence = sequence_of(seed + uint(i));
             uint first = first_point(sequence, sample_index);
-            exact real quad_sum = light.quad_sum + quad_irradiance(matte, i, quad_point(i, sequence, first + uint(k)), k, tally);
+            real3 on_light = quad_point(i, sequence, first + uint(k));
+            exact real quad_sum = light.quad_sum + quad_irradiance(matte, i, on_light, k, tally);
             exact real3 sum = light.sum + real3(get_quad_light(i).radiance.xyz) * quad_sum;
             bool last = k + 1 == LIGHT_SAMPLES;
             light.sum = last && !out_of_steps ? sum : light.sum;

@@ -81,8 +81,8 @@ Matte matte_of(Path path, Hit hit, real3 point, real3 normal)
     return matte;
 }
 
-// Adds what a ray sees that ends on a matte surface or nowhere. Whether its light takes another turn. Each branch draws
-// light samples of its own, the same whichever others are traced.
+// Adds what a ray sees that ends on a matte surface or nowhere. Whether its light takes another turn, unless it is known
+// to come at once. Each branch draws light samples of its own, the same whichever others are traced.
 bool end_path(bool at_once, inout Pixel pixel, inout Lighting light, Path path, Hit hit, real3 point, real3 normal)
 {
     exact real3 seen = real3(hoisted_view.background.xyz);

@@ -9,7 +9,7 @@
  * after 65535 turns, without a word; a graphics card's watchdog bites after some seconds. */
 enum { MOST_TURNS = 30000 };
 
-enum { REGISTERS = 8 }; /* of path.glsl: a deeper stack lies in a buffer */
+enum { REGISTERS = 8 }; /* of path.glsl: a deeper stack needs a buffer */
 
 static uint64_t at_least_1(uint64_t x)
 {
