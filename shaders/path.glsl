@@ -19,7 +19,7 @@ struct PackedPath {
 // The stack of reflections still to be traced: at most one for every bounce count. A short one lies in registers: chosen
 // by selects, they cost lavapipe less than memory, which it gathers and scatters lane by lane. Of a long one the upper part
 // does, as a ring: what is pushed into a full one takes the place of the lowest, which goes to memory.
-const int STACK_ROOM = !GLASS || MAX_BOUNCES == 0 ? 1 : MAX_BOUNCES <= 8 ? MAX_BOUNCES : 2;
+const int STACK_ROOM = !GLASS || MAX_BOUNCES == 0 ? 1 : MAX_BOUNCES <= MOST_IN_REGISTERS ? MAX_BOUNCES : 2;
 const bool STACK_SINKS = GLASS && MAX_BOUNCES > STACK_ROOM;
 PackedPath stack[STACK_ROOM];
 int sunk = 0; // how many of those that wait are in memory

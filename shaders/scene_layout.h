@@ -62,6 +62,9 @@ typedef struct PackedSurface PackedSurface;
 #define WORK_REALS 5
 #define WORK_WORDS 11
 
+/* A stack for more bounces than these does not lie in registers alone, see path.glsl. */
+#define MOST_IN_REGISTERS 8
+
 /* What the direction of a ray, and its line projected along the normal of the parallel mirrors that reflect
  * it, may be off by after 1000 bounces, relative: a bounce loses less than 2^-20. */
 #define MIRROR_DRIFT 0.0009765625 /* 2^-10 */

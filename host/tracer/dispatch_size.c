@@ -9,8 +9,6 @@
  * after 65535 turns, without a word; a graphics card's watchdog bites after some seconds. */
 enum { MOST_TURNS = 30000 };
 
-enum { REGISTERS = 8 }; /* of path.glsl: a deeper stack needs a buffer */
-
 static uint64_t at_least_1(uint64_t x)
 {
     return x > 1 ? x : 1;
@@ -95,7 +93,7 @@ static void choose_turns(const struct packed_scene *scene, bool primary_first, s
 static void choose_memory(const struct packed_scene *scene, struct dispatch_size *size)
 {
     const bool glass = has_kind(scene, KIND_TRANSPARENT);
-    if (!size->resumable && !(glass && scene->max_bounces > REGISTERS))
+    if (!size->resumable && !(glass && scene->max_bounces > MOST_IN_REGISTERS))
         return;
     const uint32_t paths = 1 + (glass ? (uint32_t)scene->max_bounces : 0); /* under way, and on the stack */
     size->saved_reals = WORK_REALS + 2 * paths;
