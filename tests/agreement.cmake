@@ -69,6 +69,8 @@ add_agreement(many_turns/figure_2b/33x21/samples_256 ${PROJECT_SOURCE_DIR}/scene
               --size 33x21 --samples 256)
 add_agreement(many_turns/overlapping_glass/60x40/bounces_32
               ${CMAKE_CURRENT_SOURCE_DIR}/scenes/overlapping_glass.yaml --size 60x40 --max-bounces 32)
+add_agreement(many_turns/crowded_glass/512x32/samples_8 ${CMAKE_CURRENT_SOURCE_DIR}/scenes/crowded_glass.yaml -q
+              --size 512x32 --samples 8) # so many samples that primary rays come first
 add_agreement(many_turns/ten_hostile/16x8/light_samples_9000 ${CMAKE_CURRENT_SOURCE_DIR}/scenes/ten_hostile.yaml -q
               --size 16x8 --light-samples 9000)
 # Up to 400000 rays in a pixel: one sample takes several dispatches.
